@@ -412,6 +412,7 @@ app::EngineReport GpuEngine::report() const {
     app::EngineReport report = report_;
     report.engine = app::nameOf(app::kGpuEngines, engine_);
     report.device = context_.info().name;
+    report.isSoftware = context_.info().isSoftware();
     report.features = features_;
     report.lightSampling = app::describeLightShapes(settings_, features_);
     if (kernel_) {

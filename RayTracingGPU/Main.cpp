@@ -87,7 +87,8 @@ std::vector<rt::app::EngineDevice> suitableDevices() {
         if (!all[i].suitable()) continue;
         const auto isNamesake = [&](const auto& device) { return device.name.find(all[i].name) != std::string::npos; };
         const bool isUnique = std::count_if(all.begin(), all.end(), isNamesake) == 1;
-        suitable.push_back({all[i].name, isUnique ? all[i].name : std::to_string(i), rt::gpu::enginesOf(all[i])});
+        suitable.push_back(
+            {all[i].name, isUnique ? all[i].name : std::to_string(i), rt::gpu::enginesOf(all[i]), all[i].isSoftware()});
     }
     return suitable;
 }

@@ -15,7 +15,8 @@ layout(push_constant) uniform Constants {
     uint width; // of both images; 0: none
     uint height;
     uint curve;
-    uint flags;   // 1: the picture, 2: the held image is display intensities already; 4: enlarged pixels are smooth
+    uint flags;   // 1: the picture, 2: the held image is display intensities already; 4: enlarged pixels are smooth;
+                  // 8: the picture less the held image is shown, about grey
     float split;  // the held image is shown to the left of this, in pixels of the window
     float surroundR; // what lies around the image, sRGB
     float surroundG;
@@ -67,5 +68,10 @@ void main() {
         return;
     }
     const bool isSmooth = (flags & 4u) != 0u && scale > 1.01;
-    color = vec4(srgbEncode(isSmooth ? smoothed(at, isHeld) : averaged(at, isHeld)), 1.0);
+    const vec3 seen = srgbEncode(isSmooth ? smoothed(at, isHeld) : averaged(at, isHeld));
+    color = vec4(seen, 1.0);
+    if ((flags & 8u) != 0u) {
+        const vec3 other = srgbEncode(isSmooth ? smoothed(at, true) : averaged(at, true));
+        color = vec4(clamp(0.5 + 2.0 * (seen - other), 0.0, 1.0), 1.0); // four times as large as it is seen
+    }
 }

@@ -25,6 +25,10 @@ void resizeLarge(Container& container, std::size_t count, const Value&... value)
     container.resize(count, value...);
 }
 
+// Has whole pages of memory that nobody has touched yet provided now: by several threads at once this takes a part of
+// the time that the first touch of one thread does. May do nothing.
+void providePages(void* memory, std::size_t bytes) noexcept;
+
 // Gives back the memory of what is no longer needed: that of large scenes adds up.
 template <class T>
 void release(std::vector<T>& values) {

@@ -13,7 +13,6 @@
 #include "Common/App/Session/Outputs.h"
 #include "Common/Gui/FrameTimer.h"
 #include "Common/Gui/ImGuiLayer.h"
-#include "Common/Gui/Panels/EnginePanel.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Panels/SavePaths.h"
 #include "Common/Gui/PictureArea.h"
@@ -37,33 +36,11 @@ constexpr double kSoftBusySeconds = 0.05;      // likewise where software draws;
 constexpr double kSoftFrameSeconds = 1.0 / 30; // between quick frames where software draws
 constexpr double kSoftNewsSeconds = 0.1; // between frames of what is new where software draws and nobody does anything
 constexpr double kAwakeSeconds = 0.4, kSoftAwakeSeconds = 0.15; // of quick frames after the last input, likewise
+constexpr double kReadingSeconds = 0.1;                         // of frames that only take input, before one is shown
+constexpr int kAnsweringFrames = 4;  // after input that may bring the keyboard elsewhere, before more is read
 constexpr int kSettlingFrames = 6;   // after the last input, likewise: windows and tables find their sizes in them
 constexpr double kLongestStep = 0.1; // seconds of flight in one frame
 constexpr double kPresentingSeconds = 0.002; // between two looks whether a frame under way has been presented
-
-app::InteractiveSession::Setup sessionSetup(const app::Options& options, const WindowProgram& program,
-                                            app::GuiSettings& settings, const GraphicsDevice& device,
-                                            app::RunHistory& history, std::atomic<bool>& isNews) {
-    settings.engine = servedChoice(settings.engine, program.devices, options); // what this machine has
-    app::InteractiveSession::Setup setup;
-    setup.options = options;
-    setup.makeEngine = program.makeEngine;
-    setup.engine = settings.engine;
-    setup.request = settings.request;
-    setup.scene = {settings.scene, settings.request.oneSidedLights, options.camera, options.assetsBelow};
-    // A file that was open the last time may be gone by now.
-    if (options.given.count("--scene") == 0) setup.fallbackScene = app::GuiSettings().scene;
-    setup.atEnd = endFiles(options, settings);
-    setup.preview = !settings.rayTracing;
-    // Threads of the processor wait for each other at the end of a slice, and requests that do not interrupt it for
-    // that end.
-    setup.sliceSeconds = options.program != app::kGpuProgram ? 0.1 : 0.03;
-    setup.drawnBySoftware = device.isSoftware();
-    setup.history = &history;
-    setup.references = referenceCache(options);
-    setup.onChange = [&isNews] { isNews = true; };
-    return setup;
-}
 
 class App {
   public:
@@ -75,7 +52,7 @@ class App {
           presenter_(device_, window_),
           imgui_(window_, device_, presenter_.renderPass(), presenter_.imageCount(), layoutFile(options)),
           history_(historyFile(options)),
-          session_(sessionSetup(options, program, settings_, device_, history_, isNews_)),
+          session_(sessionSetup(options, program, settings_, device_.isSoftware(), history_, isNews_)),
           gui_{session_,
                settings_,
                camera_,
@@ -98,9 +75,10 @@ class App {
     void wait();
     void waitForPresenting();
     void turn();
+    void readInput();
     void save();
     void saveChart(const std::function<void(VkCommandBuffer)>& drawInterface);
-    void drawFrame(double seconds);
+    void drawFrame(bool isShown);
     void drawInterface();
     void rescue();
 
@@ -122,6 +100,7 @@ class App {
     SessionLink link_{options_, gui_, presenter_};
 
     std::vector<std::string> dropped_;
+    std::vector<InputEvent> input_;            // of the frame
     std::optional<app::Stopwatch> sinceInput_; // none yet
     int framesSinceInput_ = 0;
     app::Stopwatch sinceFrame_;
@@ -168,6 +147,7 @@ bool App::isFrameDue() {
         framesSinceInput_ = 0;
     }
     if (window_.takeChange()) isNews_ = true;
+    if (window_.hasEvents()) return true; // also those that the frame before has not come to
     const double minimum = !device_.isSoftware() ? 0 : isAwake() ? kSoftFrameSeconds : kSoftNewsSeconds;
     return isInput || ((isAwake() || isNews_) && sinceFrame_.seconds() >= minimum);
 }
@@ -178,7 +158,8 @@ void App::wait() {
     const bool isBusy = gui_.state.activity == app::Activity::Rendering || !gui_.state.stage.empty();
     // A stage tells how long it has taken, and a field of text has a cursor that blinks.
     const bool moves = !gui_.state.stage.empty() || ImGui::GetIO().WantTextInput;
-    const double longest = device_.isSoftware() && !moves ? kSoftSeconds : kIdleSeconds;
+    const bool blinks = gui_.pinned && gui_.compareBy == CompareBy::Blink;
+    const double longest = device_.isSoftware() && !moves && !blinks ? kSoftSeconds : kIdleSeconds;
     const double restful = !isBusy ? kIdleSeconds : device_.isSoftware() ? kSoftBusySeconds : kBusySeconds;
     const app::Stopwatch watch;
     while (!isFrameDue() && watch.seconds() < longest)
@@ -202,7 +183,7 @@ void App::turn() {
     }
     const auto [width, height] = window_.framebufferSize();
     if (width <= 0 || height <= 0) { // minimised: nothing to draw, and nobody to draw for
-        (void)window_.takeKeys();
+        while (window_.hasEvents()) (void)window_.takeEvents(false);
         flying_ = false;
         sinceInput_.emplace();
         window_.waitEvents(kIdleSeconds);
@@ -210,12 +191,11 @@ void App::turn() {
     }
     presenter_.renew();
     gui_.followOther();
-    drawFrame(std::min(sinceFrame_.seconds(), kLongestStep));
+    gui_.followExport();
+    readInput();
     // A table with new rows, and what is said, find their sizes in the frame after.
     const Sizes sizes{gui_.state.historySerial, gui_.messageTime, gui_.errors.unreadCount()};
     if (std::exchange(sizes_, sizes) != sizes || gui_.browser.isSettling()) isNews_ = true;
-    link_.send();
-    if (gui_.saveRequested || !gui_.saveAs.empty()) save();
     const auto drawInterface = [this](VkCommandBuffer commands) {
         thumbnails_.setCommands(commands);
         imgui_.draw(commands);
@@ -260,20 +240,39 @@ void App::saveChart(const std::function<void(VkCommandBuffer)>& drawInterface) {
     }
 }
 
-void App::drawFrame(double seconds) {
+void App::drawFrame(bool isShown) {
+    const double seconds = std::min(sinceFrame_.seconds(), kLongestStep);
     sinceFrame_ = {};
     framesSinceInput_ = std::min(framesSinceInput_ + 1, kSettlingFrames);
     imgui_.setStyle(
         {settings_.colorMode, settings_.uiScale * window_.monitorScale(), window_.pixelDensity(), settings_.font});
-    const std::vector<Window::KeyPress> presses = window_.takeKeys();
-    std::vector<int> keys;
-    for (const Window::KeyPress& press : presses) keys.push_back(press.key);
-    imgui_.beginFrame(keys);
+    imgui_.beginFrame(input_);
     thumbnails_.beginFrame();
-    for (const Window::KeyPress& press : presses) obeyKey(gui_, press);
+    for (const InputEvent& event : input_)
+        if (isKeyPress(event)) obeyKey(gui_, event);
     drawInterface();
-    flying_ = fly(gui_, presses, seconds);
-    imgui_.endFrame();
+    flying_ = fly(gui_, input_, seconds);
+    gui_.isHeld = flying_ || ImGui::IsAnyMouseDown();
+    isShown ? imgui_.endFrame() : imgui_.dropFrame();
+    link_.send();
+    if (gui_.saveRequested || !gui_.saveAs.empty()) save();
+}
+
+// All that has come from keyboard and mouse, in as many frames as that takes, of which the last one is shown: however
+// slowly frames are shown, nothing of it is lost, and nothing waits for the next of them.
+void App::readInput() {
+    const app::Stopwatch watch;
+    for (int answering = 0;;) {
+        input_.clear();
+        if (answering > 0)
+            --answering;
+        else
+            input_ = window_.takeEvents(ImGui::GetIO().WantTextInput);
+        if (InputQueue::mayChangeFocus(input_)) answering = kAnsweringFrames;
+        const bool isLast = !window_.hasEvents() || watch.seconds() > kReadingSeconds;
+        drawFrame(isLast);
+        if (isLast) return;
+    }
 }
 
 void App::drawInterface() {

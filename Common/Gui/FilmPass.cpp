@@ -81,7 +81,10 @@ void FilmPass::draw(VkCommandBuffer commands, VkExtent2D extent, PresentConstant
     constants.width = sizes_[0][0];
     constants.height = sizes_[0][1];
     constants.scale *= static_cast<float>(reduction_);
-    if (sizes_[1] != sizes_[0]) constants.split = -1; // a held image of another size cannot be compared
+    if (sizes_[1] != sizes_[0]) { // a held image of another size cannot be compared
+        constants.split = -1;
+        constants.flags &= ~kDifference;
+    }
     const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
     vkCmdSetViewport(commands, 0, 1, &viewport);

@@ -15,8 +15,9 @@ namespace rt::gui {
 
 inline constexpr std::uint32_t kFramesInFlight = 2;
 
-// Flags: that image is display intensities already; pixels that are enlarged run into each other.
-inline constexpr std::uint32_t kPlainPicture = 1, kPlainHeld = 2, kSmooth = 4;
+// Flags: that image is display intensities already; pixels that are enlarged run into each other;
+// the difference of both images is shown.
+inline constexpr std::uint32_t kPlainPicture = 1, kPlainHeld = 2, kSmooth = 4, kDifference = 8;
 
 // As Constants of Shaders/Present.frag.
 struct PresentConstants {

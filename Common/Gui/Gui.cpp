@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <glm/geometric.hpp>
 #include <imgui.h>
 
+#include "Common/App/Interactive/FilmFiles.h"
+#include "Common/Core/Error.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/Printable.h"
 #include "Common/Gui/Panels/SavePaths.h"
@@ -30,12 +33,21 @@ void Gui::stepScene(int step) {
 }
 
 void Gui::hold() {
-    const bool isHeld = held != nullptr;
-    held = isHeld ? nullptr : state.picture.image;
-    heldRadiance = isHeld ? nullptr : state.picture.radiance;
-    heldIsDisplay = state.picture.isDisplay;
-    heldTitle = pictureTitle();
     split = 0.5f;
+    if (!pinned) return pinned.pin(state.picture, viewRequest.mode, pictureTitle(), workInView());
+    pinned.clear();
+    runs.clearSelection(); // nothing is compared any more
+}
+
+// A film that was stopped early is of the samples that it has.
+std::optional<app::RunRecord> Gui::workInView() const {
+    if (!state.scene || state.picture.isPreview) return std::nullopt;
+    app::RunRecord work =
+        app::recordOfWork(*state.scene, settings.request.oneSidedLights, camera.camera(), state.settings);
+    work.app = isGpu ? app::kGpuProgram : app::kCpuProgram;
+    const bool hasEnded = state.activity == app::Activity::Stopped || state.activity == app::Activity::Finished;
+    if (hasEnded && state.picture.spp > 0) work.spp = state.picture.spp;
+    return work;
 }
 
 std::string Gui::whyNotOther() const {
@@ -70,16 +82,35 @@ void Gui::followOther() {
     const app::OtherState done = other.state();
     if (done.serial == otherSerial) return;
     otherSerial = done.serial;
-    held = heldRadiance = done.image;
-    heldIsDisplay = false;
-    heldTitle = (isGpu ? "CPU, " : "GPU, ") + std::to_string(done.record.spp) + " spp";
+    const std::string title = (isGpu ? "CPU, " : "GPU, ") + std::to_string(done.record.spp) + " spp";
+    pinned.pin(done.image, title, done.record);
     split = 0.5f;
-    say(heldTitle + " in " + shortDuration(done.record.renderSeconds));
+    say(title + " in " + shortDuration(done.record.renderSeconds));
 }
 
 void Gui::cancelOther() {
     otherIsWanted = false;
     other.cancel();
+}
+
+void Gui::frameAll() {
+    if (!state.scene) return;
+    const glm::dvec3 &lower = state.scene->lower, &upper = state.scene->upper;
+    const double aspect = static_cast<double>(state.settings.width) / std::max(1u, state.settings.height);
+    camera.frame(0.5 * (lower + upper), 0.5 * glm::length(upper - lower), aspect);
+}
+
+// As --export-scene does, which reads the scene once more: what is rendered is no text any more.
+void Gui::exportScene() {
+    if (state.scene) browse(BrowseFor::Export);
+}
+
+void Gui::followExport() {
+    try {
+        if (const auto file = exporting.takeResult()) say("Saved " + *file);
+    } catch (const std::exception& error) {
+        fail(messageOf(error), app::ErrorSource::Save);
+    }
 }
 
 void Gui::copyPose() {
@@ -154,6 +185,9 @@ void Gui::browse(BrowseFor what) {
                        fs::path(savePaths(settings.saveFolder, state).front()).filename().string(),
                        true};
             break;
+        case BrowseFor::Export:
+            request = {"Export the scene", "Export", {".json"}, saveFolder(settings.saveFolder), "scene.json", true};
+            break;
     }
     browser.open(std::move(request));
 }
@@ -168,6 +202,9 @@ void Gui::take(const std::filesystem::path& file) {
             saveAs = file.string();
             if (std::error_code none; std::filesystem::is_directory(file.parent_path(), none))
                 settings.saveFolder = file.parent_path().string();
+            return;
+        case BrowseFor::Export:
+            exporting.start(state.source, assetsBelow, file.string());
     }
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,12 @@
 #include "Common/App/Interactive/GuiSettings.h"
 #include "Common/App/Interactive/InteractiveSession.h"
 #include "Common/App/Interactive/OtherEngine.h"
+#include "Common/App/Interactive/SceneExport.h"
 #include "Common/Gui/FileBrowser.h"
 #include "Common/Gui/FrameTimer.h"
 #include "Common/Gui/Inspector.h"
 #include "Common/Gui/Layout.h"
+#include "Common/Gui/PinnedView.h"
 #include "Common/Gui/RunBoard.h"
 #include "Common/Gui/Thumbnails.h"
 #include "Common/Gui/Window.h"
@@ -28,7 +31,7 @@ struct PictureView {
 };
 
 // What the file browser is open for.
-enum class BrowseFor { Scene, Reference, Picture };
+enum class BrowseFor { Scene, Reference, Picture, Export };
 
 // Members that are not const are for the parts to change; App sends what has changed.
 struct Gui {
@@ -46,22 +49,25 @@ struct Gui {
     app::SessionState state; // of this frame
     PictureView view;
     app::ViewRequest viewRequest;
-    std::uint32_t previewWidth = 0; // pixels of a row that suit the window; 0: the picture's own
-    std::shared_ptr<const image::Image> held, heldRadiance; // for comparison with the picture
-    std::string heldTitle;                                  // what it is
-    bool heldIsDisplay = false;
-    float split = 0.5f;                  // share of the picture's part that shows the held image
+    bool showGrid = false, showHistogram = false; // of the picture
+    float shownScale = 1;                         // pixels of the window for one of the film
+    std::uint32_t previewWidth = 0;               // pixels of a row that suit the window; 0: the picture's own
+    PinnedView pinned;                            // for comparison with the picture
+    CompareBy compareBy = CompareBy::Split;
+    float split = 0.5f;                  // share of the picture's part that shows the pinned one
     bool pickFocus = false;              // the next click in the picture tells what is to be sharp
     std::vector<InspectedRow> inspected; // what the pixel under the pointer holds
     std::uint32_t referenceSpp = 1024;
     std::string referencePath;
     bool onlyThisScene = true;
     RunBoard runs;
-    std::vector<app::RunRecord> runsToDelete; // before the next frame draws any
-    bool otherIsWanted = false;               // as soon as this render has ended
-    std::uint64_t otherSerial = 0;            // of the picture of the other program that was pinned
-    Rect chart;                               // of the comparison, in the window's units
-    bool chartRequested = false;              // as a file
+    std::vector<app::RunRecord> runsToDelete;  // before the next frame draws any
+    std::optional<app::SizeRequest> askedSize; // of the image, which takes much memory; none
+    bool isHeld = false;                       // a control or the camera, by the mouse or by keys
+    bool otherIsWanted = false;                // as soon as this render has ended
+    std::uint64_t otherSerial = 0;             // of the picture of the other program that was pinned
+    Rect chart;                                // of the comparison, in the window's units
+    bool chartRequested = false;               // as a file
     UiFigures figures;
     bool showHelp = false;
     std::string revealPanel;  // id of one to bring to where it is seen
@@ -75,15 +81,20 @@ struct Gui {
     std::string sceneSearch;
     FileBrowser browser;
     BrowseFor browseFor = BrowseFor::Scene;
+    app::SceneExport exporting;
     float autoExposure = 0; // stops, of the picture
 
     void openScene(const std::string& source);
     void stepScene(int step); // through the built-in ones, round and round
     std::string pictureTitle() const;
-    std::string whyNotOther() const; // the other program cannot do the same; empty: it can
-    void followOther();              // starts it when it is its turn, and pins what it has rendered
+    std::optional<app::RunRecord> workInView() const; // of the picture, by this program; none of a preview
+    std::string whyNotOther() const;                  // the other program cannot do the same; empty: it can
+    void followOther();                               // starts it when it is its turn, and pins what it has rendered
     void cancelOther();
     void hold();     // the picture, for comparison; or lets it go
+    void frameAll(); // turns no camera, but moves it until all of the scene is in sight
+    void exportScene();
+    void followExport();
     void copyPose(); // of the camera, to the clipboard
     void pastePose();
     void toggleHeatMap();

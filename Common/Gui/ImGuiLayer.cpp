@@ -35,7 +35,8 @@ void checkImGui(VkResult result) {
 
 ImGuiLayer::ImGuiLayer(const Window& window, GraphicsDevice& device, VkRenderPass renderPass, std::uint32_t imageCount,
                        const std::filesystem::path& layoutFile)
-    : device_(device),
+    : window_(window.get()),
+      device_(device),
       renderPass_(renderPass),
       imageCount_(std::max(imageCount, 2u)),
       layoutFile_(layoutFile.string()) {
@@ -47,7 +48,11 @@ ImGuiLayer::ImGuiLayer(const Window& window, GraphicsDevice& device, VkRenderPas
 #ifdef IMGUI_HAS_DOCK
     io.ConfigFlags |= ImGuiConfigFlags_DockingEnable;
 #endif
-    ImGui_ImplGlfw_InitForVulkan(window.get(), true);
+#if IMGUI_VERSION_NUM >= 18700
+    io.ConfigInputTrickleEventQueue = false; // InputQueue has seen to it, and knows what a frame has taken
+#endif
+    ImGui_ImplGlfw_InitForVulkan(window_, false);
+    glfwSetMonitorCallback(ImGui_ImplGlfw_MonitorCallback);
 
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 64};
     VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
@@ -62,6 +67,7 @@ ImGuiLayer::ImGuiLayer(const Window& window, GraphicsDevice& device, VkRenderPas
 ImGuiLayer::~ImGuiLayer() {
     vkDeviceWaitIdle(device_.device());
     if (started_) ImGui_ImplVulkan_Shutdown();
+    glfwSetMonitorCallback(nullptr);
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
 }
@@ -211,31 +217,26 @@ std::optional<Rect> showDockSpace(const Rect&, const DockShares&, std::span<cons
 
 // ---- frames --------------------------------------------------------------------------------------------------------
 
-void closeUndrawnPopups(std::span<const int> pressed) {
-    if (std::find(pressed.begin(), pressed.end(), GLFW_KEY_ESCAPE) == pressed.end()) return;
+void closeUndrawnPopups(std::span<const InputEvent> input) {
+    const bool isEscape = std::any_of(input.begin(), input.end(), [](const InputEvent& event) {
+        return event.kind == InputEvent::Kind::Key && event.isDown && event.code == GLFW_KEY_ESCAPE;
+    });
+    if (!isEscape) return;
     auto& popups = ImGui::GetCurrentContext()->OpenPopupStack;
     while (!popups.empty() && popups.back().Window == nullptr) popups.pop_back();
 }
 
-void ImGuiLayer::beginFrame(std::span<const int> pressed) {
+void ImGuiLayer::beginFrame(std::span<const InputEvent> input) {
     if (!started_ || wanted_ != style_) applyStyle();
-    closeUndrawnPopups(pressed);
-#if IMGUI_VERSION_NUM < 18700
-    // A key that went down and up between two frames would not be seen; later versions queue events.
-    ImGuiIO& io = ImGui::GetIO();
-    for (const int key : briefKeys_) io.KeysDown[key] = false;
-    briefKeys_.clear();
-    for (const int key : pressed) {
-        if (key < 0 || key >= IM_ARRAYSIZE(io.KeysDown) || io.KeysDown[key]) continue;
-        io.KeysDown[key] = true;
-        briefKeys_.push_back(key);
-    }
-#else
-    (void)pressed;
-#endif
+    closeUndrawnPopups(input);
     ImGui_ImplVulkan_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    feed_.feed(window_, input);
     ImGui::NewFrame();
+}
+
+void ImGuiLayer::dropFrame() {
+    ImGui::EndFrame();
 }
 
 void ImGuiLayer::endFrame() {

@@ -5,13 +5,13 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <imgui.h>
 #include <vulkan/vulkan.h>
 
 #include "Common/App/Interactive/GuiSettings.h"
 #include "Common/Gui/GraphicsDevice.h"
+#include "Common/Gui/InputFeed.h"
 #include "Common/Gui/Layout.h"
 #include "Common/Gui/Window.h"
 
@@ -27,8 +27,8 @@ struct Style {
 
 // Between two frames. A popup that has been opened but not drawn yet, as a table's menu is a frame later, has no
 // window; where Escape is to close it, ImGui (1.86 to 1.92 at least) reads the window all the same and ends the
-// program. `pressed`: as for ImGuiLayer::beginFrame.
-void closeUndrawnPopups(std::span<const int> pressed);
+// program. `input`: as for ImGuiLayer::beginFrame.
+void closeUndrawnPopups(std::span<const InputEvent> input);
 
 // A window that can be docked, by its title, and where it is until the user moves it.
 struct DockedWindow {
@@ -59,8 +59,9 @@ class ImGuiLayer {
 
     void setStyle(const Style& style); // takes effect at the next beginFrame; costs nothing when it is the same
     float scale() const { return style_.scale; }
-    // `pressed`: keys that went down since the frame before, as GLFW numbers them, also those that are up again.
-    void beginFrame(std::span<const int> pressed);
+    // `input`: what has happened, as much of it as a frame may take (InputQueue).
+    void beginFrame(std::span<const InputEvent> input);
+    void dropFrame(); // instead of endFrame(): it has only taken input, and is not shown
     void endFrame();
     void draw(VkCommandBuffer commands); // what endFrame left
 
@@ -68,6 +69,7 @@ class ImGuiLayer {
     void startRenderer();
     void applyStyle();
 
+    GLFWwindow* window_;
     GraphicsDevice& device_;
     VkRenderPass renderPass_;
     std::uint32_t imageCount_;
@@ -76,7 +78,7 @@ class ImGuiLayer {
     Style style_;
     Style wanted_;
     bool started_ = false;
-    std::vector<int> briefKeys_; // down for this frame only
+    InputFeed feed_;
 };
 
 } // namespace rt::gui

@@ -13,6 +13,23 @@ std::string text(const char* pattern, Values... values) {
     return buffer;
 }
 
+std::string nameOf(app::Legend::Quantity quantity) {
+    using Quantity = app::Legend::Quantity;
+    switch (quantity) {
+        case Quantity::Time:
+            return "time a sample";
+        case Quantity::StandardError:
+            return "relative noise";
+        case Quantity::Error:
+            return "relative error";
+        case Quantity::Distance:
+            return "distance";
+        case Quantity::Rays:
+            break;
+    }
+    return "rays a sample";
+}
+
 } // namespace
 
 std::vector<InspectedRow> inspectPixel(const app::Picture& picture, const image::Image* held,
@@ -31,6 +48,11 @@ std::vector<InspectedRow> inspectPixel(const app::Picture& picture, const image:
         rows.push_back({"", text("%u, %u", x, y), "", ""});
         radiance.held = text(kPattern, other[0], other[1], other[2]);
         radiance.difference = text("%+.3g  %+.3g  %+.3g", rgb[0] - other[0], rgb[1] - other[1], rgb[2] - other[2]);
+    }
+    if (const float* shown = find(picture.values.get())) {
+        const bool isOne = picture.values->channels == 1;
+        rows.push_back({picture.legend ? nameOf(picture.legend->quantity) : "view",
+                        isOne ? text("%.4g", *shown) : text(kPattern, shown[0], shown[1], shown[2]), "", ""});
     }
     rows.push_back(std::move(radiance));
     if (const float* variance = find(picture.variance.get()))

@@ -14,6 +14,8 @@ namespace rt::gui {
 namespace {
 
 constexpr double kRadiansPerPixel = 0.004;
+constexpr float kPixelScale = 4; // from here on pixels are squares, pixels of the window for one of the image
+constexpr float kGridScale = 8;  // likewise for lines between them, in the window's units
 constexpr float kZoomStep = 1.2f, kMinZoom = 0.02f, kMaxZoom = 64;
 constexpr std::size_t kMaxNameBytes = 60; // of a material
 
@@ -65,9 +67,9 @@ PresentConstants PictureArea::constants() const {
         constants.originY = std::round(top * pixels.y);
         constants.scale = s * pixels.x;
     }
-    constants.flags = (gui_.state.picture.isDisplay ? kPlainPicture : 0u) | (gui_.heldIsDisplay ? kPlainHeld : 0u) |
-                      (gui_.view.zoom > 0 ? 0u : kSmooth); // who zooms wants to see pixels
-    if (gui_.held) constants.split = (area_.x + gui_.split * area_.width) * pixels.x;
+    constants.flags = (gui_.state.picture.isDisplay ? kPlainPicture : 0u) |
+                      (gui_.pinned.isDisplay() ? kPlainHeld : 0u) | (showsPixels() ? 0u : kSmooth);
+    if (gui_.pinned) compare(constants);
     constants.exposure = gui_.exposure();
     constants.curve = static_cast<std::uint32_t>(gui_.settings.tonemap);
     const Rgb surround = surroundColor(gui_.settings.colorMode);
@@ -75,6 +77,47 @@ PresentConstants PictureArea::constants() const {
     constants.surround[1] = surround.g;
     constants.surround[2] = surround.b;
     return constants;
+}
+
+// Who zooms in wants to see pixels.
+bool PictureArea::showsPixels() const {
+    return gui_.view.zoom > 0 && scale() * ImGui::GetIO().DisplayFramebufferScale.x > kPixelScale;
+}
+
+// Between pixels that are large enough for lines.
+void PictureArea::drawGrid() const {
+    const float side = scale();
+    if (!gui_.showGrid || !showsPixels() || side < kGridScale) return;
+    const Rect image = imageRect();
+    const float left = std::max(image.x, area_.x), right = std::min(image.x + image.width, area_.x + area_.width);
+    const float top = std::max(image.y, area_.y), bottom = std::min(image.y + image.height, area_.y + area_.height);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const ImU32 color = IM_COL32(128, 128, 128, 110);
+    for (float x = image.x + std::ceil((left - image.x) / side) * side; x <= right; x += side)
+        list.AddLine({x, top}, {x, bottom}, color);
+    for (float y = image.y + std::ceil((top - image.y) / side) * side; y <= bottom; y += side)
+        list.AddLine({left, y}, {right, y}, color);
+}
+
+bool PictureArea::isSplit() const {
+    return gui_.pinned && gui_.compareBy == CompareBy::Split;
+}
+
+void PictureArea::compare(PresentConstants& constants) const {
+    constexpr double kBlinkSeconds = 0.5;
+    constexpr float kAll = 1e9f; // beyond every window
+    const float density = ImGui::GetIO().DisplayFramebufferScale.x;
+    switch (gui_.compareBy) {
+        case CompareBy::Split:
+            constants.split = (area_.x + gui_.split * area_.width) * density;
+            break;
+        case CompareBy::Blink:
+            constants.split = std::fmod(ImGui::GetTime(), 2 * kBlinkSeconds) < kBlinkSeconds ? kAll : -kAll;
+            break;
+        case CompareBy::Difference:
+            constants.split = -kAll;
+            constants.flags |= kDifference;
+    }
 }
 
 // ---- the mouse -----------------------------------------------------------------------------------------------------
@@ -106,13 +149,25 @@ std::string PictureArea::materialAt(const Pixel& pixel, const image::Image& pict
     return seenMaterial_;
 }
 
+// A frame around it, dark and light, so that it is seen on every picture.
+void PictureArea::mark(const Pixel& pixel) const {
+    const Rect image = imageRect();
+    const float side = scale(), minimum = std::max(side, 5.0f), grow = 0.5f * (minimum - side);
+    const ImVec2 low{image.x + side * static_cast<float>(pixel[0]) - grow,
+                     image.y + side * static_cast<float>(pixel[1]) - grow};
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRect({low.x - 1, low.y - 1}, {low.x + minimum + 1, low.y + minimum + 1}, IM_COL32_BLACK);
+    list.AddRect(low, {low.x + minimum, low.y + minimum}, IM_COL32_WHITE);
+}
+
 // What the inspector says of a pixel.
 void PictureArea::inspect(const std::optional<Pixel>& pixel) {
     gui_.inspected.clear();
     const app::Picture& picture = gui_.state.picture;
     if (!gui_.viewRequest.inspect || !pixel || !picture.radiance) return;
-    gui_.inspected = inspectPixel(picture, gui_.held ? gui_.heldRadiance.get() : nullptr, *pixel);
+    gui_.inspected = inspectPixel(picture, gui_.pinned.radiance().get(), *pixel);
     if (gui_.inspected.empty()) return;
+    mark(*pixel);
     const std::string material = materialAt(*pixel, *picture.radiance);
     if (!material.empty()) gui_.inspected.push_back({"material", printable(material, kMaxNameBytes), "", ""});
 }
@@ -125,13 +180,18 @@ void PictureArea::handlePointer() {
         ImGui::SetWindowFocus(nullptr);
     }
     if (!io.MouseDown[0] && !io.MouseDown[1] && !io.MouseDown[2]) dragging_ = false;
+    gui_.shownScale = scale() * io.DisplayFramebufferScale.x / filmPixels();
+    drawGrid();
     const std::optional<Pixel> pixel = inside ? pixelUnderPointer() : std::nullopt;
     inspect(pixel);
-    if (inside && io.MouseClicked[0] && (gui_.pickFocus || gui_.window.clickedWithControl())) {
+    if (inside && io.MouseClicked[0] && (gui_.pickFocus || io.KeyCtrl)) {
         gui_.pickFocus = false;
         dragging_ = false; // the press that picks does not orbit
-        if (pixel) gui_.session.pickFocus((*pixel)[0], (*pixel)[1]);
-    } else if (dragging_ && io.MouseDown[0] && gui_.held && !io.KeyAlt) {
+        if (pixel)
+            gui_.session.pickFocus((*pixel)[0], (*pixel)[1]);
+        else
+            gui_.say("The picture is elsewhere: nothing was picked");
+    } else if (dragging_ && io.MouseDown[0] && isSplit() && !io.KeyAlt) {
         gui_.split = std::clamp((io.MousePos.x - area_.x) / std::max(1.0f, area_.width), 0.0f, 1.0f);
     }
     if (dragging_ && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) drag();
@@ -148,7 +208,7 @@ void PictureArea::drag() {
         gui_.view.zoom = scale() / filmPixels();
     } else if (io.MouseDown[1]) {
         gui_.camera.look(-kRadiansPerPixel * dx, -kRadiansPerPixel * dy);
-    } else if (io.MouseDown[0] && (io.KeyAlt || (!gui_.held && ImGui::IsMouseDragging(0)))) {
+    } else if (io.MouseDown[0] && (io.KeyAlt || (!isSplit() && ImGui::IsMouseDragging(0)))) {
         // Alone from ImGui's threshold on, so that a click with an unsteady hand starts no new film.
         gui_.camera.orbit(-kRadiansPerPixel * dx, -kRadiansPerPixel * dy);
     } else if (io.MouseDown[2] && height > 0) {
@@ -158,7 +218,7 @@ void PictureArea::drag() {
 
 void PictureArea::turnWheel() {
     const ImGuiIO& io = ImGui::GetIO();
-    if (io.KeyCtrl) { // about the pointer
+    if (!io.KeyShift && !io.KeyAlt && !io.MouseDown[1]) { // about the pointer
         const float before = scale();
         const float after = std::clamp(before * std::pow(kZoomStep, io.MouseWheel), kMinZoom, kMaxZoom);
         const float x = io.MousePos.x - inner_.x - 0.5f * inner_.width;

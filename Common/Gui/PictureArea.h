@@ -30,10 +30,15 @@ class PictureArea {
   private:
     using Pixel = std::array<std::uint32_t, 2>;
 
+    bool showsPixels() const;
+    void drawGrid() const;
+    bool isSplit() const;
+    void compare(PresentConstants& constants) const;
     float fitScale() const;
     float filmPixels() const;
     float scale() const { return gui_.view.zoom > 0 ? gui_.view.zoom * filmPixels() : fitScale(); } // of the picture's
     std::optional<Pixel> pixelUnderPointer() const;
+    void mark(const Pixel& pixel) const;
     void inspect(const std::optional<Pixel>& pixel);
     void drag();
     void turnWheel();

@@ -1,8 +1,24 @@
 #include "Common/Gui/RunBoard.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "Common/App/Options/Options.h"
+
 namespace rt::gui {
+
+namespace {
+
+// The newest run of a program that did this work; null: none.
+const app::RunRecord* newestRun(const std::vector<const app::RunRecord*>& newestFirst, const app::RunRecord& work,
+                                const std::string& program) {
+    const auto at = std::find_if(newestFirst.begin(), newestFirst.end(), [&](const app::RunRecord* run) {
+        return run->app == program && app::isSameWork(work, *run);
+    });
+    return at != newestFirst.end() ? *at : nullptr;
+}
+
+} // namespace
 
 // A program ends no two renders at once.
 std::string RunBoard::keyOf(const app::RunRecord& run) {
@@ -10,10 +26,11 @@ std::string RunBoard::keyOf(const app::RunRecord& run) {
            std::to_string(run.renderSeconds);
 }
 
-void RunBoard::update(app::RunHistory& history, const std::string& scene) {
+void RunBoard::update(app::RunHistory& history, const std::string& scene, const InView& inView) {
     hovered_ = std::exchange(hoveredNext_, {});
     const std::vector<app::RunRecord>& records = history.records();
-    if (!isStale_ && scene == scene_ && history.serial() == serial_) return;
+    if (!isStale_ && scene == scene_ && history.serial() == serial_ && inView == inView_) return;
+    inView_ = inView;
     scene_ = scene;
     serial_ = history.serial();
     rebuild(records);
@@ -28,8 +45,39 @@ void RunBoard::rebuild(const std::vector<app::RunRecord>& records) {
         if (isSelected(*record)) marked.push_back(&*record);
     }
     groups_ = app::groupByWork(runs);
-    pair_ = app::newestOfEqualWork(marked);
-    if (pair_.cpu == nullptr) pair_ = app::newestOfEqualWork(runs);
+    choosePair(runs, marked);
+}
+
+void RunBoard::choosePair(const std::vector<const app::RunRecord*>& runs,
+                          const std::vector<const app::RunRecord*>& marked) {
+    pair_ = {};
+    cpu_ = gpu_ = nullptr;
+    if (inView_.picture) {
+        cpu_ = newestRun(runs, *inView_.picture, app::kCpuProgram);
+        gpu_ = newestRun(runs, *inView_.picture, app::kGpuProgram);
+    }
+    if (marked.size() == 2) {
+        pair_ = app::pairOf(*marked[0], *marked[1]);
+        return;
+    }
+    if (const app::EnginePair both = app::newestOfEqualWork(marked); both.cpu != nullptr) {
+        pair_ = {both.cpu, both.gpu};
+        return;
+    }
+    if (inView_.picture && inView_.pinned) {
+        const app::RunRecord* shown = newestRun(runs, *inView_.picture, inView_.picture->app);
+        const app::RunRecord* pinned = newestRun(runs, *inView_.pinned, inView_.pinned->app);
+        if (shown != nullptr && pinned != nullptr && shown != pinned) {
+            pair_ = app::pairOf(*pinned, *shown);
+            return;
+        }
+    }
+    if (cpu_ != nullptr && gpu_ != nullptr) pair_ = {cpu_, gpu_};
+}
+
+void RunBoard::clearSelection() {
+    selected_.clear();
+    isStale_ = true;
 }
 
 void RunBoard::select(const app::RunRecord& run, bool isAdded) {

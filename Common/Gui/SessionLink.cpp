@@ -6,10 +6,36 @@
 #include <filesystem>
 #include <utility>
 
+#include "Common/Gui/Panels/EnginePanel.h"
 #include "Common/Gui/Panels/SavePaths.h"
+#include "Common/Gui/UserFiles.h"
 #include "Common/Image/Display.h"
 
 namespace rt::gui {
+
+app::InteractiveSession::Setup sessionSetup(const app::Options& options, const WindowProgram& program,
+                                            app::GuiSettings& settings, bool drawnBySoftware, app::RunHistory& history,
+                                            std::atomic<bool>& isNews) {
+    settings.engine = servedChoice(settings.engine, program.devices, options); // what this machine has
+    app::InteractiveSession::Setup setup;
+    setup.options = options;
+    setup.makeEngine = program.makeEngine;
+    setup.engine = settings.engine;
+    setup.request = settings.request;
+    setup.scene = {settings.scene, settings.request.oneSidedLights, options.camera, options.assetsBelow};
+    // A file that was open the last time may be gone by now.
+    if (options.given.count("--scene") == 0) setup.fallbackScene = app::GuiSettings().scene;
+    setup.atEnd = endFiles(options, settings);
+    setup.preview = !settings.rayTracing;
+    // Threads of the processor wait for each other at the end of a slice, and requests that do not interrupt it for
+    // that end.
+    setup.sliceSeconds = options.program != app::kGpuProgram ? 0.1 : 0.03;
+    setup.drawnBySoftware = drawnBySoftware;
+    setup.history = &history;
+    setup.references = referenceCache(options);
+    setup.onChange = [&isNews] { isNews = true; };
+    return setup;
+}
 
 SessionLink::SessionLink(const app::Options& options, Gui& gui, Presenter& presenter)
     : options_(options),
@@ -116,6 +142,7 @@ void SessionLink::send() {
         sentPreviewWidth_ = gui_.previewWidth;
         gui_.session.previewWidth(sentPreviewWidth_);
     }
+    if (std::exchange(sentHeld_, gui_.isHeld) != gui_.isHeld) gui_.session.hold(gui_.isHeld);
     if (gui_.viewRequest != sentView_) {
         sentView_ = gui_.viewRequest;
         gui_.session.view(sentView_);
@@ -125,9 +152,10 @@ void SessionLink::send() {
         sentEnd_ = end;
         gui_.session.writeAtEnd(end);
     }
-    if (gui_.held.get() != shownHeld_) {
-        shownHeld_ = gui_.held.get();
-        if (gui_.held) presenter_.setHeld(gui_.held);
+    gui_.pinned.follow(gui_.state, gui_.viewRequest);
+    if (gui_.pinned.shown().get() != shownHeld_) {
+        shownHeld_ = gui_.pinned.shown().get();
+        if (gui_.pinned) presenter_.setHeld(gui_.pinned.shown());
     }
     if (sceneSerial_ > 0 && gui_.camera.camera() != sentCamera_) {
         sentCamera_ = gui_.camera.camera();

@@ -1,16 +1,23 @@
 // Between the interface and the session that renders: what has come about there is shown, what was changed here is
 // sent, each of it once.
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
 
 #include "Common/App/Options/Options.h"
+#include "Common/Gui/App.h"
 #include "Common/Gui/Gui.h"
 #include "Common/Gui/Presenter.h"
 #include "Common/Render/Stopwatch.h"
 
 namespace rt::gui {
+
+// What the session begins with. `isNews` becomes true when it has something new to show; it must outlive the session.
+app::InteractiveSession::Setup sessionSetup(const app::Options& options, const WindowProgram& program,
+                                            app::GuiSettings& settings, bool drawnBySoftware, app::RunHistory& history,
+                                            std::atomic<bool>& isNews);
 
 class SessionLink {
   public:
@@ -38,7 +45,7 @@ class SessionLink {
 
     app::RenderRequest sentRequest_;
     app::EngineChoice sentEngine_;
-    bool sentRayTracing_;
+    bool sentRayTracing_, sentHeld_ = false;
     std::uint32_t sentPreviewWidth_ = 0;
     scene::CameraDesc sentCamera_;
     app::ViewRequest sentView_;

@@ -1,6 +1,7 @@
 #include "Common/Gui/Shortcuts.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include <GLFW/glfw3.h>
 #include <imgui.h>
@@ -32,7 +33,13 @@ void pauseOrGoOn(Gui& gui) {
 }
 
 void holdPicture(Gui& gui) {
-    if (gui.held || gui.state.picture.image) gui.hold();
+    if (gui.pinned || gui.state.picture.image) gui.hold();
+}
+
+// Split, blink, difference, split.
+void compareOtherwise(Gui& gui) {
+    const auto count = static_cast<int>(std::size(kCompareBys));
+    if (gui.pinned) gui.compareBy = static_cast<CompareBy>((static_cast<int>(gui.compareBy) + 1) % count);
 }
 
 // From the picture: what ImGui's keys walk through begins with a window that has the focus.
@@ -65,9 +72,11 @@ constexpr Shortcut kShortcuts[] = {
     {GLFW_KEY_C, When::CtrlShift, [](Gui& gui) { gui.copyPose(); }},
     {GLFW_KEY_V, When::CtrlShift, [](Gui& gui) { gui.pastePose(); }},
     {GLFW_KEY_SPACE, When::Plain, pauseOrGoOn},
+    {GLFW_KEY_HOME, When::Plain, [](Gui& gui) { gui.frameAll(); }},
     {GLFW_KEY_R, When::Plain, [](Gui& gui) { gui.camera.reset(); }},
     {GLFW_KEY_F, When::Plain, [](Gui& gui) { gui.view = {}; }},
     {GLFW_KEY_B, When::Plain, holdPicture},
+    {GLFW_KEY_V, When::Plain, compareOtherwise},
     {GLFW_KEY_H, When::Plain, [](Gui& gui) { gui.toggleHeatMap(); }},
     {GLFW_KEY_P, When::Plain, [](Gui& gui) { gui.setRayTracing(!gui.settings.rayTracing); }},
     {GLFW_KEY_TAB, When::Plain, walkPanels},
@@ -77,7 +86,7 @@ constexpr Shortcut kShortcuts[] = {
     {GLFW_KEY_PAGE_DOWN, When::Plain, [](Gui& gui) { gui.stepScene(1); }},
 };
 
-bool applies(const Shortcut& shortcut, const Window::KeyPress& press) {
+bool applies(const Shortcut& shortcut, const InputEvent& press) {
     const bool control = (press.modifiers & GLFW_MOD_CONTROL) != 0;
     switch (shortcut.when) {
         case When::Always:
@@ -93,9 +102,9 @@ bool applies(const Shortcut& shortcut, const Window::KeyPress& press) {
 }
 
 // Keys of the file browser, where its field has the keyboard.
-bool browseBy(FileBrowser& browser, const Window::KeyPress& press) {
+bool browseBy(FileBrowser& browser, const InputEvent& press) {
     using Key = FileBrowser::Key;
-    switch (press.key) {
+    switch (press.code) {
         case GLFW_KEY_ESCAPE:
             browser.close();
             return true;
@@ -122,33 +131,37 @@ bool browseBy(FileBrowser& browser, const Window::KeyPress& press) {
 
 } // namespace
 
-void obeyKey(Gui& gui, const Window::KeyPress& press) {
+bool isKeyPress(const InputEvent& event) {
+    return event.kind == InputEvent::Kind::Key && event.isDown;
+}
+
+void obeyKey(Gui& gui, const InputEvent& press) {
     const bool isBrowsing = gui.browser.isOpen(); // what is typed is for its field
     if (isBrowsing && browseBy(gui.browser, press)) return;
     for (const Shortcut& shortcut : kShortcuts) {
-        if (shortcut.key != press.key || !applies(shortcut, press)) continue;
+        if (shortcut.key != press.code || !applies(shortcut, press)) continue;
         if (isBrowsing && shortcut.when == When::Plain) return;
         shortcut.act(gui);
         return;
     }
     const bool control = (press.modifiers & GLFW_MOD_CONTROL) != 0;
-    if (control || isBrowsing || ImGui::GetIO().WantTextInput || press.key < GLFW_KEY_1 || press.key > GLFW_KEY_9)
+    if (control || isBrowsing || ImGui::GetIO().WantTextInput || press.code < GLFW_KEY_1 || press.code > GLFW_KEY_9)
         return;
-    const auto index = static_cast<std::size_t>(press.key - GLFW_KEY_1);
+    const auto index = static_cast<std::size_t>(press.code - GLFW_KEY_1);
     if (index < scene::builtinScenes().size()) gui.openScene(std::string(scene::builtinScenes()[index].id));
 }
 
-bool fly(Gui& gui, std::span<const Window::KeyPress> presses, double seconds) {
+bool fly(Gui& gui, std::span<const InputEvent> input, double seconds) {
     if (ImGui::GetIO().WantTextInput || gui.browser.isOpen() || !gui.state.scene) return false;
     const Window& window = gui.window;
     const bool control = window.isDown(GLFW_KEY_LEFT_CONTROL) || window.isDown(GLFW_KEY_RIGHT_CONTROL);
     const bool shift = window.isDown(GLFW_KEY_LEFT_SHIFT) || window.isDown(GLFW_KEY_RIGHT_SHIFT);
     // A key that went down and up between two frames of a busy machine counts, too.
     const auto isPressed = [&](int key) {
-        const auto isThis = [key](const Window::KeyPress& press) {
-            return press.key == key && (press.modifiers & GLFW_MOD_CONTROL) == 0;
+        const auto isThis = [key](const InputEvent& press) {
+            return isKeyPress(press) && press.code == key && (press.modifiers & GLFW_MOD_CONTROL) == 0;
         };
-        return window.isDown(key) || std::any_of(presses.begin(), presses.end(), isThis);
+        return window.isDown(key) || std::any_of(input.begin(), input.end(), isThis);
     };
     const auto axis = [&isPressed](int positive, int negative) {
         return (isPressed(positive) ? 1.0 : 0.0) - (isPressed(negative) ? 1.0 : 0.0);

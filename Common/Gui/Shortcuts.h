@@ -3,15 +3,17 @@
 #include <span>
 
 #include "Common/Gui/Gui.h"
-#include "Common/Gui/Window.h"
+#include "Common/Gui/InputQueue.h"
 
 namespace rt::gui {
 
-// A key that has gone down, within a frame of ImGui.
-void obeyKey(Gui& gui, const Window::KeyPress& press);
+bool isKeyPress(const InputEvent& event);
 
-// Moves the camera for this long by the keys that are down or, in `presses`, were since the frame before; whether any
+// What isKeyPress(), within a frame of ImGui.
+void obeyKey(Gui& gui, const InputEvent& press);
+
+// Moves the camera for this long by the keys that are down or, in `input`, were since the frame before; whether any
 // was.
-bool fly(Gui& gui, std::span<const Window::KeyPress> presses, double seconds);
+bool fly(Gui& gui, std::span<const InputEvent> input, double seconds);
 
 } // namespace rt::gui

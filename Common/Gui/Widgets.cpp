@@ -47,6 +47,7 @@ void editReal(double& value, const char* pattern) {
 }
 
 bool isNextRowMarked = false;
+const char* whyDisabled = nullptr; // of the rows that are drawn; null: they are not, or it is not said
 
 } // namespace
 
@@ -54,13 +55,34 @@ void markNextRow(bool isChanged) {
     isNextRowMarked = isChanged;
 }
 
+Disabled::Disabled(bool isOn, const char* why) : isOn_(isOn), outer_(whyDisabled) {
+    if (!isOn_) return;
+    ImGui::BeginDisabled();
+    if (why != nullptr) whyDisabled = why;
+}
+
+Disabled::~Disabled() {
+    if (!isOn_) return;
+    ImGui::EndDisabled();
+    whyDisabled = outer_;
+}
+
+// One a frame: ImGui would put a second one's text below the first one's. What is grey tells why it is.
 void tooltip(const char* text) {
-    if (text == nullptr || !ImGui::IsItemHovered()) return;
+    static int lastFrame = -1;
+    const bool isExplained = whyDisabled != nullptr;
+    if ((text == nullptr && !isExplained) || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    if (std::exchange(lastFrame, ImGui::GetFrameCount()) == ImGui::GetFrameCount()) return;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26);
-    ImGui::TextUnformatted(text);
+    if (text != nullptr) ImGui::TextUnformatted(text);
+    if (isExplained) ImGui::TextDisabled("Has no effect now: %s", whyDisabled);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
+}
+
+void explainDisabled() {
+    if (whyDisabled != nullptr) tooltip(nullptr);
 }
 
 void row(const char* label, const char* tip) {
@@ -110,6 +132,7 @@ bool inputCount(const char* label, const char* tip, std::uint32_t& value, std::u
         const char* pattern = zero != nullptr && shown == 0 && !isTyped ? zero : "%u";
         ImGui::InputScalar("##value", ImGuiDataType_U32, &shown, nullptr, nullptr, pattern);
         if (!ImGui::IsItemActive()) shown = std::clamp(shown, min, max);
+        explainDisabled();
     });
     // Buttons of our own: those of ImGui 1.86 end the program when one is pressed while the mouse holds something else.
     for (const bool up : {false, true}) {
@@ -134,6 +157,7 @@ bool inputReal(const char* label, const char* tip, double& value, double min, do
     ImGui::PushID(label);
     const bool changed = editLater(value, [&](double& shown, bool isTyped) {
         editReal(shown, zero != nullptr && shown == 0 && !isTyped ? zero : pattern);
+        explainDisabled();
         if (ImGui::IsItemActive()) return;
         shown = std::isfinite(shown) ? std::clamp(shown, min, max) : value;
     });
@@ -168,6 +192,7 @@ bool sliderReal(const char* label, const char* tip, double& value, double min, d
     double shown = value;
     const ImGuiSliderFlags flags = (logarithmic ? ImGuiSliderFlags_Logarithmic : 0) | ImGuiSliderFlags_AlwaysClamp;
     const bool changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &shown, &min, &max, pattern, flags);
+    explainDisabled();
     ImGui::PopID();
     if (!changed || !std::isfinite(shown) || shown == value) return false;
     value = std::clamp(shown, min, max);

@@ -14,6 +14,7 @@ void row(const char* label, const char* tip);
 // The next row's setting is not at its default: its label says so.
 void markNextRow(bool isChanged);
 void tooltip(const char* text);     // of the item before
+void explainDisabled();             // likewise, where it is grey: why
 void note(const std::string& text); // dimmed and wrapped
 void wrapped(const std::string& text, const ImVec4& color);
 // The beginning of a text, ended by dots where it is wider than that.
@@ -40,7 +41,9 @@ bool combo(const char* label, const char* tip, const app::Named<E> (&table)[N], 
     const std::string current = app::titleOf(table, value);
     bool changed = false;
     ImGui::PushID(label);
-    if (ImGui::BeginCombo("##value", current.c_str())) {
+    const bool isOpen = ImGui::BeginCombo("##value", current.c_str());
+    if (!isOpen) explainDisabled();
+    if (isOpen) {
         for (const auto& entry : table) {
             const bool selected = entry.value == value;
             if (ImGui::Selectable(app::titleOf(table, entry.value).c_str(), selected) && !selected) {
@@ -56,20 +59,18 @@ bool combo(const char* label, const char* tip, const app::Named<E> (&table)[N], 
     return changed;
 }
 
-// Rows that have no effect at the moment, while one of these lives: grey, and where they always are.
+// Rows that have no effect at the moment, while one of these lives: grey, and where they always are. Their tooltips say
+// `why`, which outlives it.
 class Disabled {
   public:
-    explicit Disabled(bool isOn = true) : isOn_(isOn) {
-        if (isOn_) ImGui::BeginDisabled();
-    }
-    ~Disabled() {
-        if (isOn_) ImGui::EndDisabled();
-    }
+    explicit Disabled(bool isOn = true, const char* why = nullptr);
+    ~Disabled();
     Disabled(const Disabled&) = delete;
     Disabled& operator=(const Disabled&) = delete;
 
   private:
     bool isOn_;
+    const char* outer_;
 };
 
 // What follows, which is so wide, stands beside the item before if there is room, else below.

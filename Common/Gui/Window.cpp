@@ -66,19 +66,41 @@ Window::Window(const std::string& title, const WindowPlace& place) {
     if (place.hasPosition && isOnAMonitor(place)) glfwSetWindowPos(window_, place.x, place.y);
     if (place.maximised) glfwMaximizeWindow(window_);
 
-    // ImGui's backend calls these in turn.
-    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+    listen();
+    glfwShowWindow(window_);
+    askForSizes();
+}
+
+void Window::note(const InputEvent& event) {
+    input_ = true;
+    events_.push(event);
+}
+
+void Window::listen() {
+    using Kind = InputEvent::Kind;
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
         self(w).input_ = true;
-        if (action == GLFW_PRESS) self(w).keys_.push_back({key, modifiers});
+        if (action != GLFW_REPEAT) self(w).note({Kind::Key, key, scancode, modifiers, action == GLFW_PRESS});
     });
-    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { self(w).input_ = true; });
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { self(w).input_ = true; });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int action, int modifiers) {
-        self(w).input_ = true;
-        if (action == GLFW_PRESS) self(w).clickedWithControl_ = (modifiers & GLFW_MOD_CONTROL) != 0;
+    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned character) {
+        self(w).note({Kind::Text, static_cast<int>(character)});
     });
-    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { self(w).input_ = true; });
-    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { self(w).change_ = true; });
+    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int isInside) {
+        self(w).note({Kind::Enter, 0, 0, 0, isInside == GLFW_TRUE});
+    });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+        self(w).note({Kind::Move, 0, 0, 0, false, x, y});
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int modifiers) {
+        self(w).note({Kind::Button, button, 0, modifiers, action == GLFW_PRESS});
+    });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
+        self(w).note({Kind::Wheel, 0, 0, 0, false, x, y});
+    });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int hasFocus) {
+        self(w).events_.push({Kind::Focus, 0, 0, 0, hasFocus == GLFW_TRUE});
+        self(w).change_ = true;
+    });
     glfwSetWindowSizeCallback(window_, [](GLFWwindow* w, int width, int height) {
         self(w).size_ = {width, height};
         self(w).change_ = true;
@@ -97,8 +119,6 @@ Window::Window(const std::string& title, const WindowPlace& place) {
         self(w).input_ = true;
         if (self(w).onDrop_) self(w).onDrop_({paths, paths + count});
     });
-    glfwShowWindow(window_);
-    askForSizes();
 }
 
 void Window::askForSizes() {
@@ -161,11 +181,16 @@ bool Window::takeChange() {
     return std::exchange(change_, false);
 }
 
-std::vector<Window::KeyPress> Window::takeKeys() {
-    return std::exchange(keys_, {});
-}
-bool Window::isDown(int key) const {
-    return glfwGetKey(window_, key) == GLFW_PRESS;
+std::vector<InputEvent> Window::takeEvents(bool isTyping) {
+    std::vector<InputEvent> portion = events_.take(isTyping);
+    for (const InputEvent& event : portion) {
+        if (event.kind != InputEvent::Kind::Key) continue;
+        if (event.isDown)
+            down_.insert(event.code);
+        else
+            down_.erase(event.code);
+    }
+    return portion;
 }
 
 float Window::pixelDensity() const {

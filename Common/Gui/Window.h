@@ -2,10 +2,13 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <vulkan/vulkan.h>
+
+#include "Common/Gui/InputQueue.h"
 
 struct GLFWwindow;
 
@@ -42,13 +45,10 @@ class Window {
     // drawn anew.
     bool takeInput();
     bool takeChange();
-    // Keys that went down since the last call, as GLFW numbers them, with its modifiers.
-    struct KeyPress {
-        int key = 0, modifiers = 0;
-    };
-    std::vector<KeyPress> takeKeys();
-    bool isDown(int key) const;
-    bool clickedWithControl() const { return clickedWithControl_; } // when a mouse button went down last
+    // What has come from keyboard and mouse and no frame has taken yet.
+    bool hasEvents() const { return !events_.isEmpty(); }
+    std::vector<InputEvent> takeEvents(bool isTyping);          // as InputQueue::take()
+    bool isDown(int key) const { return down_.count(key) > 0; } // by the events that were taken
 
     // Pixels; 0 while minimised.
     std::array<int, 2> framebufferSize() const { return isMinimised_ ? std::array<int, 2>{} : pixels_; }
@@ -67,15 +67,17 @@ class Window {
   private:
     void fitMonitor(const WindowPlace& place);
     void askForSizes();
+    void listen();
+    void note(const InputEvent& event);
 
     GLFWwindow* window_ = nullptr;
     // As events told them: to ask means to wait for a display server, which may have to wait for those who render.
     std::array<int, 2> size_{}, pixels_{};
     bool isMinimised_ = false;
     std::function<void(std::vector<std::string>)> onDrop_;
-    std::vector<KeyPress> keys_;
+    InputQueue events_;
+    std::set<int> down_; // keys
     bool input_ = false, change_ = true;
-    bool clickedWithControl_ = false;
     bool fullScreen_ = false;
     WindowPlace restored_; // to go back to from full screen
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/SystemMemory.h"
 #include "Common/Image/FilmRows.h"
@@ -22,10 +23,26 @@ namespace {
                       " replicate(s)");
 }
 
+// In pieces, on all threads: a large film takes seconds, in which its user may want something else.
+template <class T>
+void resizeInPieces(std::vector<T>& values, std::size_t count) {
+    constexpr std::size_t kPiece = (std::size_t{1} << 26) / sizeof(T); // 64 MiB
+    reserveLarge(values, count);
+    if (count > kPiece)
+        parallelChunks(0, count, kPiece, [&](std::size_t begin, std::size_t end) {
+            interruptionPoint();
+            providePages(values.data() + begin, (end - begin) * sizeof(T));
+        });
+    while (values.size() < count) {
+        if (!values.empty()) interruptionPoint();
+        values.resize(std::min(count, values.size() + kPiece));
+    }
+}
+
 template <class T>
 void allocateFor(std::vector<T>& values, std::size_t count, const FilmDesc& desc) {
     try {
-        resizeLarge(values, count);
+        resizeInPieces(values, count);
     } catch (const std::bad_alloc&) {
         throwOutOfMemory(desc);
     } catch (const std::length_error&) {

@@ -80,6 +80,7 @@ struct EngineReport {
     std::string engine;        // "multi", "single", "pipeline", "compute", "query"
     std::string device;        // processor or Vulkan device
     std::string kernel;        // which specialisation runs, e.g. "surfaces+lights/x86-64-v4"
+    bool isSoftware = false;   // a Vulkan device whose work the processor does
     std::uint32_t threads = 0; // CPU only
     shared::Features features; // in force, after any forced superset
     double accelBuildSeconds = 0;

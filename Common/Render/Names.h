@@ -19,7 +19,8 @@ enum class Tonemap : std::uint32_t {
     None = shared::kTonemapNone, // clamped
     Reinhard = shared::kTonemapReinhard,
     Aces = shared::kTonemapAces,
-    Agx = shared::kTonemapAgx
+    Agx = shared::kTonemapAgx,
+    Neutral = shared::kTonemapNeutral
 };
 // Images beside the picture: first-hit features, and what the film knows of each pixel.
 enum class Aov { Albedo, Normal, Depth, Variance, Samples, Denoised, DenoisedError };
@@ -39,7 +40,7 @@ inline constexpr Named<LightSampling> kLightSamplings[] = {
      "lights and the BSDF are both sampled, weighed against each other by the power heuristic"},
     {"mis-balance", LightSampling::MisBalance, "MIS (balance heuristic)", "weighed by the balance heuristic instead"},
     {"mixture", LightSampling::Mixture, "BSDF + light mixture", "one direction, half from lights, half from the BSDF"},
-    {"bsdf", LightSampling::Bsdf, "BSDF only", "light is found by chance"}};
+    {"bsdf", LightSampling::Bsdf, "Off (BSDF only)", "light is found by chance"}};
 inline constexpr Named<LightSelection> kLightSelections[] = {
     {"contribution", LightSelection::Contribution, "By contribution", "by a bound of what each brings to the point"},
     {"power", LightSelection::Power, "By power", "in proportion to what each emits"},
@@ -60,9 +61,9 @@ inline constexpr Named<SamplerKind> kSamplers[] = {
     {"sobol-blue", SamplerKind::SobolBlue, "Sobol, blue noise", "one sequence for all pixels, so that noise is finer"},
     {"stratified", SamplerKind::Stratified, "Stratified", "one in each cell of a grid"},
     {"independent", SamplerKind::Independent, "Independent (random)", "each on its own"}};
-inline constexpr Named<Policy> kPolicies[] = {{"par", Policy::Par, "Multi core: par"},
-                                              {"seq", Policy::Seq, "Single core: seq"},
-                                              {"par_unseq", Policy::ParUnseq, "Multi core: par_unseq"}};
+inline constexpr Named<Policy> kPolicies[] = {{"par", Policy::Par, "All cores"},
+                                              {"seq", Policy::Seq, "One core"},
+                                              {"par_unseq", Policy::ParUnseq, "All cores (par_unseq)"}};
 inline constexpr Named<GpuEngineKind> kGpuEngines[] = {
     {"auto", GpuEngineKind::Auto, "Auto", "what is measured to be fastest on this device for such a scene"},
     {"pipeline", GpuEngineKind::Pipeline, "Ray tracing pipeline", "the device's own acceleration structures"},
@@ -71,7 +72,8 @@ inline constexpr Named<GpuEngineKind> kGpuEngines[] = {
 inline constexpr Named<Tonemap> kTonemaps[] = {{"none", Tonemap::None, "None (clamp)"},
                                                {"reinhard", Tonemap::Reinhard, "Reinhard"},
                                                {"aces", Tonemap::Aces, "ACES-like"},
-                                               {"agx", Tonemap::Agx, "AgX (filmic)"}};
+                                               {"agx", Tonemap::Agx, "AgX (filmic)"},
+                                               {"neutral", Tonemap::Neutral, "Neutral (Khronos PBR)"}};
 inline constexpr Named<Aov> kAovs[] = {{"albedo", Aov::Albedo},
                                        {"normal", Aov::Normal},
                                        {"depth", Aov::Depth},
@@ -80,20 +82,19 @@ inline constexpr Named<Aov> kAovs[] = {{"albedo", Aov::Albedo},
                                        {"denoised", Aov::Denoised},
                                        {"denoised-error", Aov::DenoisedError}};
 inline constexpr Named<bool> kAdaptive[] = {
-    {"off", false, "Uniform", "every pixel gets the same number"},
-    {"on", true, "Adaptive", "more where a pilot has met more noise; unbiased, SPP is the mean; not with strata"}};
+    {"off", false, "Off", "every pixel gets the same number"},
+    {"on", true, "On", "more where a pilot has met more noise; unbiased, SPP is the mean; not with strata"}};
 inline constexpr Named<bool> kSpecularConnections[] = {
-    {"off", false, "By chance", "scattering alone finds it"},
-    {"on", true, "Connected",
+    {"off", false, "Off", "scattering alone finds it"},
+    {"on", true, "On",
      "by connections to where it comes from, or paths aimed at glass, where chance is noisy; unbiased"}};
 inline constexpr Named<bool> kEdgeRays[] = {
-    {"off", false, "One ray a sample", "the path's own ray finds or misses the light"},
-    {"on", true, "Split rays",
-     "several rays a sample where a light's edge crosses a pixel, or a ball shows lights; unbiased"}};
+    {"off", false, "Off", "the path's own ray finds or misses the light"},
+    {"on", true, "On", "several rays a sample where a light's edge crosses a pixel, or a ball shows lights; unbiased"}};
 inline constexpr Named<PathReuse> kPathReuse[] = {
-    {"auto", PathReuse::Auto, "Where it wins", "in rooms of few lamps, where indirect light makes the noise"},
-    {"off", PathReuse::Off, "Own paths", "each pixel has the light of its own paths alone"},
-    {"on", PathReuse::On, "Shared paths", "less noise of light by way of other surfaces; unbiased"}};
+    {"auto", PathReuse::Auto, "Auto", "in rooms of few lamps, where indirect light makes the noise"},
+    {"off", PathReuse::Off, "Off", "each pixel has the light of its own paths alone"},
+    {"on", PathReuse::On, "On", "less noise of light by way of other surfaces; unbiased"}};
 inline constexpr Named<bool> kOnOff[] = {{"on", true}, {"off", false}};
 
 // Each setting that chooses a method: visit(key, title, help, table, settings.member...), the key as in files; with
@@ -101,7 +102,7 @@ inline constexpr Named<bool> kOnOff[] = {{"on", true}, {"off", false}};
 // RenderSettings, or of several side by side.
 template <typename Visit, typename... Settings>
 void forEachMethod(const Visit& visit, Settings&... settings) {
-    visit("light_sampling", "Direct lighting", "direct-lighting estimator: how light is found", kLightSamplings,
+    visit("light_sampling", "Light sampling", "direct-lighting estimator: how light is found", kLightSamplings,
           settings.lightSampling...);
     visit("light_selection", "Light selection", "how one of the lights is chosen", kLightSelections,
           settings.lightSelection...);
@@ -111,15 +112,15 @@ void forEachMethod(const Visit& visit, Settings&... settings) {
           settings.quadLight...);
     visit("triangle_light", "Sampling strategy for triangle lights", "where a triangle is sampled", kFlatLights,
           settings.triangleLight...);
-    visit("specular_connections", "Glass, mirrors", "how light that smooth spheres refract or reflect is found",
+    visit("specular_connections", "Glass connections", "how light that smooth spheres refract or reflect is found",
           kSpecularConnections, settings.specularConnections...);
-    visit("edge_rays", "Edges of lights", "how camera rays sample lights in sight at their edges", kEdgeRays,
+    visit("edge_rays", "Edge rays", "how camera rays sample lights in sight at their edges", kEdgeRays,
           settings.edgeRays...);
     visit("path_reuse", "Path reuse",
           "whether neighbouring pixels share what their paths bring from the second vertex on", kPathReuse,
           settings.pathReuse...);
     visit("sampler", "Pixel sampling", "the random numbers", kSamplers, settings.sampler...);
-    visit("adaptive", "Sample density", "how many samples each pixel gets", kAdaptive, settings.adaptive...);
+    visit("adaptive", "Adaptive samples", "how many samples each pixel gets", kAdaptive, settings.adaptive...);
 }
 
 // "--light-sampling" of "light_sampling".

@@ -10,6 +10,7 @@ const uint kTonemapNone = 0u;     // clamp
 const uint kTonemapReinhard = 1u; // by luminance
 const uint kTonemapAces = 2u;     // filmic curve
 const uint kTonemapAgx = 3u;      // filmic curve that keeps bright colours apart from white for longer
+const uint kTonemapNeutral = 4u;  // the identity but for what nears white
 
 // Relative luminance of linear RGB with Rec. 709 primaries (ITU-R BT.709).
 RT_FN float displayLuminance(vec3 color) {
@@ -70,11 +71,28 @@ RT_FN vec3 tonemapAgx(vec3 color) {
     return vec3(pow(max(outset.x, 0.0f), 2.2f), pow(max(outset.y, 0.0f), 2.2f), pow(max(outset.z, 0.0f), 2.2f));
 }
 
+// Khronos 2024, "PBR Neutral Tone Mapper Specification": colours below 0.8 are shown as they are, less the share that a
+// dielectric's reflection adds to its darkest channel (4 %, fading in from black); what is brighter keeps its hue,
+// nears 1 as a hyperbola and fades to white on the way.
+RT_FN vec3 tonemapNeutral(vec3 color) {
+    const float kF90Share = 0.04f, kStart = 0.8f - 0.04f, kFade = 0.15f;
+    const float minimum = min(color.x, min(color.y, color.z));
+    const float offset = minimum < 2.0f * kF90Share ? minimum - minimum * minimum / (4.0f * kF90Share) : kF90Share;
+    const vec3 base = color - vec3(offset);
+    const float peak = max(base.x, max(base.y, base.z));
+    if (peak < kStart) return base;
+    const float room = 1.0f - kStart;
+    const float shown = 1.0f - room * room / (peak + room - kStart);
+    const float white = 1.0f - 1.0f / (kFade * (peak - shown) + 1.0f);
+    return base * ((shown / peak) * (1.0f - white)) + vec3(shown * white);
+}
+
 // Linear radiance to linear display intensity in [0,1], not yet sRGB-encoded. exposure is in stops.
 RT_FN vec3 tonemap(vec3 radiance, float exposure, uint curve) {
     const vec3 scaled = min(max(radiance, vec3(0.0f)) * exp2(exposure), vec3(1.0e30f));
     if (curve == kTonemapReinhard) return clamp(tonemapReinhard(scaled), 0.0f, 1.0f);
     if (curve == kTonemapAces) return clamp(tonemapAces(scaled), 0.0f, 1.0f);
+    if (curve == kTonemapNeutral) return clamp(tonemapNeutral(scaled), 0.0f, 1.0f);
     if (curve == kTonemapAgx) return clamp(tonemapAgx(scaled), 0.0f, 1.0f);
     return clamp(scaled, 0.0f, 1.0f);
 }

@@ -44,7 +44,8 @@ TEST(ImGuiLayer, EscapeClosesAPopupThatHasNotBeenDrawn) {
     frame(true);
     ASSERT_EQ(context->OpenPopupStack.Size, 1);
     ASSERT_EQ(context->OpenPopupStack.back().Window, nullptr);
-    const std::array other{GLFW_KEY_A}, escape{GLFW_KEY_ESCAPE};
+    const auto press = [](int key) { return std::array{InputEvent{InputEvent::Kind::Key, key, 0, 0, true}}; };
+    const auto other = press(GLFW_KEY_A), escape = press(GLFW_KEY_ESCAPE);
     closeUndrawnPopups(other);
     EXPECT_EQ(context->OpenPopupStack.Size, 1);
     closeUndrawnPopups(escape);

@@ -38,6 +38,25 @@ TEST(Inspector, TellsWhatThePictureHolds) {
     EXPECT_TRUE(inspectPixel({}, nullptr, {0, 0}).empty());
 }
 
+TEST(Inspector, TellsWhatTheViewShows) {
+    app::Picture picture;
+    picture.radiance = uniform(0.5f, 1, 2);
+    picture.values = uniform(0, 0.6f, 0.8f);
+    std::vector<InspectedRow> rows = inspectPixel(picture, nullptr, {0, 0});
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[1].picture, "0  0.6  0.8");
+    EXPECT_EQ(rows[2].picture, "0.5  1  2");
+    picture.legend = app::Legend{app::Legend::Quantity::Error, 1};
+    picture.values = std::make_shared<const image::Image>([] {
+        image::Image values(4, 2, 1);
+        std::fill(values.data.begin(), values.data.end(), 0.25f);
+        return values;
+    }());
+    rows = inspectPixel(picture, nullptr, {0, 0});
+    EXPECT_EQ(rows[1].name, "relative error");
+    EXPECT_EQ(rows[1].picture, "0.25");
+}
+
 TEST(Inspector, TellsBothValuesAndTheirDifferenceBesideAPinnedPicture) {
     app::Picture picture;
     picture.radiance = uniform(0.5f, 1, 2);

@@ -1,5 +1,6 @@
 // The panels at the side of both windows, and what there is to see of them.
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -54,10 +55,10 @@ TEST_P(PanelsTest, ChangedSettingsAreMarkedAndRestoredAndDisabledRowsStayInPlace
         key("p");
         EXPECT_TRUE(eventually([&] { return settings()["ray_tracing"] == false; })) << settings();
         EXPECT_TRUE(areSamplesMarked());
-        click(185, samplesRow() + kRow); // +100 spp
+        click(185, samplesRow() + 2 * kRow); // +100 spp
         EXPECT_EQ(settings()["render"]["spp"], 7);
     }
-    click(75, samplesRow() + 253); // Restore defaults
+    click(75, samplesRow() + 253 + 3 * kRow); // Restore defaults
     EXPECT_TRUE(eventually([&] { return settings()["render"]["spp"] == 100; })) << settings();
     EXPECT_TRUE(eventually([&] { return !areSamplesMarked(); }));
     EXPECT_EQ(settings()["render"]["width"], nlohmann::json()) << settings();
@@ -96,7 +97,7 @@ TEST_P(SharedPanelsTest, MoreSamplesAndBudgetsAreAtHand) {
         pause(500);
         return isSaved("-4spp.exr");
     })) << log();
-    click(185, samplesRow() + kRow); // +100 spp
+    click(185, samplesRow() + 2 * kRow); // +100 spp
     EXPECT_TRUE(eventually([&] { return settings()["render"]["spp"] == 104; })) << settings();
     EXPECT_TRUE(eventually([&] {
         key("F12");
@@ -111,12 +112,34 @@ TEST_P(SharedPanelsTest, MoreSamplesAndBudgetsAreAtHand) {
         key("Return");
         pause(300);
     };
-    enter(2, "7.5");
+    enter(3, "7.5");
     EXPECT_TRUE(eventually([&] { return settings()["render"]["time_limit"] == 7.5; })) << settings();
-    enter(3, "0.25");
+    enter(4, "0.25");
     EXPECT_TRUE(eventually([&] { return settings()["render"]["target_error"] == 0.25; })) << settings();
-    enter(2, "0"); // none
+    enter(3, "0"); // none
     EXPECT_TRUE(eventually([&] { return settings()["render"]["time_limit"].is_null(); })) << settings();
+    expectCleanEnd();
+}
+
+// 9000 x 9000 pixels: nothing is reserved for them, and the next size that is typed is rendered.
+TEST_P(SharedPanelsTest, AnImageOfMuchMemoryIsAskedFor) {
+    start({"--width", "48", "--spp", "1", "--engine", isGpu() ? "compute" : "multi"});
+    ASSERT_FALSE(HasFatalFailure());
+    const int widthRow = samplesRow() + 7 * kRow;
+    const auto enter = [&](const std::string& number) {
+        click(220, widthRow);
+        pause(500);
+        type(number);
+        pause(300);
+        key("Return");
+        pause(3000); // settings are kept every other second
+    };
+    enter("9000");
+    EXPECT_NE(settings()["render"]["width"], 9000) << settings();
+    EXPECT_LT(residentBytes(), std::uint64_t{2} << 30);
+    click(210, widthRow + 79); // Keep the size
+    enter("64");
+    EXPECT_TRUE(eventually([&] { return settings()["render"]["width"] == 64; })) << settings();
     expectCleanEnd();
 }
 

@@ -37,7 +37,7 @@ TEST_F(UserFilesTest, TheLookOfFilesOfTheCommandLineIsForgotten) {
         kept.store();
     }
     KeptSettings kept(options({}));
-    EXPECT_EQ(kept.settings.tonemap, Tonemap::Agx);
+    EXPECT_EQ(kept.settings.tonemap, Tonemap::Neutral);
     EXPECT_EQ(kept.settings.uiScale, 1.5f);
 }
 

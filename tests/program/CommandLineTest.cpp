@@ -72,7 +72,7 @@ TEST_F(CommandLine, UsageErrors) {
         {{"--replicates", "0"}, "--replicates 0"},
         {{"--replicates", "101"}, "--spp 100"},
         {{"--exposure", "inf"}, "--exposure inf"},
-        {{"--tonemap", "filmic"}, "none, reinhard, aces or agx"},
+        {{"--tonemap", "filmic"}, "none, reinhard, aces, agx or neutral"},
         {{"--aov", "albedo"}, "--aov"},
         {{"--aov", "albedo,shadow", "-o", "a.png"}, "--aov shadow"},
         {{"--time-limit", "0"}, "--time-limit 0"},

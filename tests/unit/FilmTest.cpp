@@ -1,5 +1,6 @@
 // The film against exact sums (numerics N15), split invariance, replicates, variance, tiles at the edge, memory.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -11,6 +12,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Hash.h"
+#include "Common/Core/Interruption.h"
 #include "Common/Image/Film.h"
 
 namespace rt::image {
@@ -268,6 +270,23 @@ TEST(Film, RefusesBadSizes) {
     EXPECT_THROW(Film({8, 100000}), UsageError);
     EXPECT_THROW(Film({8, 8, 0}), UsageError);
     EXPECT_THROW(Film({kMaxImageSide, kMaxImageSide, 0xffffffffu}), RenderError); // more than any machine has
+}
+
+// Where somebody waits for something else: a large one after a piece of it at most, a small one is there at once.
+TEST(Film, ReservingALargeOneCanBeCalledOff) {
+    const std::atomic<bool> isCalledOff{true};
+    const Interruptible interruptible(isCalledOff);
+    EXPECT_THROW(Film({4096, 4096}), Interrupted);
+    EXPECT_EQ(Film({64, 64}).tileCount(), 64u);
+}
+
+TEST(Film, ALargeOneIsEmptyThroughout) {
+    const Film film({2048, 2048}); // of two pieces
+    double maximum = 0;
+    for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile)
+        for (const double sum : film.state(tile, 0).sums) maximum = std::max(maximum, std::abs(sum));
+    EXPECT_EQ(maximum, 0);
+    EXPECT_EQ(film.totalSamples(), 0u);
 }
 
 } // namespace

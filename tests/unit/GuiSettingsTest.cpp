@@ -58,7 +58,7 @@ TEST_F(GuiSettingsTest, NonsenseLeavesDefaults) {
     }
     const GuiSettings half = loadText("{\"ui_scale\": 2, \"tonemap\": []}");
     EXPECT_EQ(half.uiScale, 2);
-    EXPECT_EQ(half.tonemap, Tonemap::Agx);
+    EXPECT_EQ(half.tonemap, Tonemap::Neutral);
 }
 
 // Scripts that ask for files get those of a program without a window.
@@ -67,7 +67,7 @@ TEST_F(GuiSettingsTest, FilesOfTheCommandLineLookAsWithoutAWindow) {
     s.exposure = 2;
     s.autoExposure = true;
     override(s, *parseOptions("ray-tracing-cpu", {"--no-config", "--window"}, std::cout));
-    EXPECT_EQ(s.tonemap, Tonemap::Agx);
+    EXPECT_EQ(s.tonemap, Tonemap::Neutral);
     EXPECT_EQ(s.exposure, 2);
     EXPECT_TRUE(s.autoExposure);
     override(s, *parseOptions("ray-tracing-cpu", {"--no-config", "--window", "-o", "a.png"}, std::cout));

@@ -83,6 +83,89 @@ TEST_F(InteractiveSessionTest, WhatHasNoPictureYetIsCancelledToo) {
     EXPECT_TRUE(reaches(session, [&](const SessionState& state) { return state.engine == choice; }));
 }
 
+// White spheres are built for as long as they are wanted.
+class BuildingEngine : public SlowEngine {
+  public:
+    inline static std::atomic<int> builds{0};
+
+    bool setScene(std::shared_ptr<const scene::CompiledScene> scene, const std::atomic<bool>* cancel) override {
+        const bool isEndless = scene->id.starts_with("white-spheres");
+        builds += isEndless;
+        while (isEndless && !cancel->load()) std::this_thread::sleep_for(1ms);
+        return !isEndless && FakeEngine::setScene(std::move(scene), cancel);
+    }
+};
+
+TEST_F(InteractiveSessionTest, TheNewestWishDoesNotWaitForABuildThatItReplaces) {
+    InteractiveSession::Setup s = setup(1'000'000);
+    s.makeEngine = [](const EngineChoice&) { return std::make_unique<BuildingEngine>(); };
+    InteractiveSession session(s);
+    const auto build = [&] {
+        const int before = BuildingEngine::builds;
+        session.open("white-spheres:2");
+        return reaches(session, [before](const SessionState&) { return BuildingEngine::builds > before; });
+    };
+    ASSERT_TRUE(build());
+    session.open("cornell-box-lights");
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) {
+        return state.scene && state.scene->id == "cornell-box-lights" && state.activity == Activity::Rendering;
+    }));
+    // What is not replaced goes on after what came between.
+    ASSERT_TRUE(build());
+    const int before = BuildingEngine::builds;
+    EngineChoice choice;
+    choice.threads = 2;
+    session.choose(choice);
+    EXPECT_TRUE(reaches(session, [&](const SessionState& state) { return state.engine == choice; }));
+    EXPECT_TRUE(reaches(session, [before](const SessionState&) { return BuildingEngine::builds > before; }));
+    // Stop gives it up, and the scene before stays.
+    session.stop();
+    ASSERT_TRUE(reaches(
+        session, [](const SessionState& state) { return state.activity == Activity::Stopped && state.stage.empty(); }));
+    EXPECT_EQ(session.state().source, "cornell-box-lights");
+    session.render();
+    EXPECT_TRUE(reaches(session, [](const SessionState& state) { return state.status.samplesDone > 0; }));
+    EXPECT_EQ(session.state().scene->id, "cornell-box-lights");
+}
+
+// A camera that rests in the middle of a drag shows a film to its end, which nobody asked for.
+TEST_F(InteractiveSessionTest, FilmsThatEndWhileTheCameraIsHeldAreNoRuns) {
+    InteractiveSession::Setup s = setup(4);
+    RunHistory history({});
+    s.history = &history;
+    InteractiveSession session(s);
+    ASSERT_TRUE(reaches(session, isFinished));
+    EXPECT_EQ(history.records().size(), 1u);
+    session.hold(true);
+    scene::CameraDesc camera = session.state().scene->camera;
+    const auto moveOn = [&] {
+        camera.lookFrom.x += 1;
+        const int films = SlowEngine::films;
+        session.moveCamera(camera, session.state().sceneSerial);
+        return reaches(session,
+                       [films](const SessionState& state) { return SlowEngine::films > films && isFinished(state); });
+    };
+    ASSERT_TRUE(moveOn());
+    ASSERT_TRUE(moveOn());
+    EXPECT_EQ(history.records().size(), 1u);
+    session.hold(false); // the last one is what the user wanted
+    EXPECT_TRUE(reaches(session, [&](const SessionState& state) { return state.historySerial == 2; }));
+    EXPECT_EQ(history.records().size(), 2u);
+}
+
+TEST_F(InteractiveSessionTest, StopGivesUpTheFirstSceneToo) {
+    InteractiveSession::Setup s = setup(4);
+    s.makeEngine = [](const EngineChoice&) { return std::make_unique<BuildingEngine>(); };
+    s.scene.source = "white-spheres:2";
+    const int before = BuildingEngine::builds;
+    InteractiveSession session(s);
+    ASSERT_TRUE(reaches(session, [before](const SessionState&) { return BuildingEngine::builds > before; }));
+    session.stop();
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.activity == Activity::Stopped; }));
+    session.open("cornell-box-lights");
+    EXPECT_TRUE(reaches(session, isFinished));
+}
+
 TEST_F(InteractiveSessionTest, AChangeStartsTheFilmAnew) {
     InteractiveSession session(setup(8));
     ASSERT_TRUE(reaches(session, isFinished));

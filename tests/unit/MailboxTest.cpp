@@ -44,6 +44,10 @@ TEST(Mailbox, ARequestCancelsWhatItSaysUntilItIsTaken) {
     (void)mailbox.take(true);
     EXPECT_FALSE(cancelled(Cancel::Slice));
     EXPECT_FALSE(cancelled(Cancel::FirstPicture));
+    mailbox.post(Cancel::Build, [](Requests& requests) { requests.dropsScene = true; });
+    EXPECT_TRUE(cancelled(Cancel::Build));
+    (void)mailbox.take(true);
+    EXPECT_FALSE(cancelled(Cancel::Build)); // the next one is to be built
     mailbox.post(Cancel::Build, [](Requests& requests) { requests.quit = true; });
     (void)mailbox.take(true);
     for (const Cancel what : {Cancel::Slice, Cancel::FirstPicture, Cancel::Build}) EXPECT_TRUE(cancelled(what));

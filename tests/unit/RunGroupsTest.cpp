@@ -70,6 +70,56 @@ TEST(RunGroups, SpeedUpsAreOfSamplesAndOfTimeToEqualError) {
     EXPECT_TRUE(compareRuns(cpu, gpu).isMeasured);
 }
 
+// Of five numbers each: medians 3 and 30 whatever their order; the ranges of the last two overlap.
+TEST(RunGroups, EnginesAreToldApartWhereRepeatedRunsAre) {
+    std::vector<RunRecord> runs;
+    const auto add = [&runs](const char* program, double samplesPerSecond) {
+        runs.push_back(run(program, 16));
+        runs.back().samplesPerSecond = samplesPerSecond;
+    };
+    const auto compare = [&runs] {
+        std::vector<RunRow> rows;
+        for (const RunRecord& r : runs) rows.push_back({&r, 0, {}});
+        return compareRepeats(pairOf(runs.front(), runs.back()), rows);
+    };
+    add("ray-tracing-cpu", 3);
+    add("ray-tracing-gpu", 30);
+    EXPECT_FALSE(compare().isKnown());
+    EXPECT_DOUBLE_EQ(compare().ratio, 10);
+    runs.clear();
+    for (const double figure : {5.0, 1.0, 3.0, 2.0, 4.0}) add("ray-tracing-cpu", figure);
+    runs.push_back(run("ray-tracing-cpu", 32)); // no repetition: of other work
+    runs.back().samplesPerSecond = 100;
+    for (const double figure : {30.0, 28.0, 36.0}) add("ray-tracing-gpu", figure);
+    const RepeatedComparison apart = compare();
+    ASSERT_TRUE(apart.isKnown());
+    EXPECT_TRUE(apart.isToldApart());
+    EXPECT_EQ(apart.first.count, 5u);
+    EXPECT_DOUBLE_EQ(apart.ratio, 10);
+    EXPECT_DOUBLE_EQ(apart.first.spread(), 4.0 / 3);
+    EXPECT_DOUBLE_EQ(apart.second.spread(), 8.0 / 30);
+    add("ray-tracing-gpu", 4.5);
+    EXPECT_FALSE(compare().isToldApart());
+    EXPECT_DOUBLE_EQ(compare().second.median, 29);
+}
+
+// Other work is compared by error * time, where both are of one picture.
+TEST(RunGroups, OtherWorkIsComparedByError) {
+    RunRecord fast = run("ray-tracing-cpu", 16), good = run("ray-tracing-cpu", 16);
+    good.lightSampling = "bsdf";
+    fast.samplesPerSecond = good.samplesPerSecond = 1;
+    fast.renderSeconds = good.renderSeconds = 1;
+    fast.relmse = 0.4;
+    good.relmse = 0.1;
+    const std::vector<RunRow> rows = {{&fast, 0, {}}, {&good, 1, {}}};
+    const RepeatedComparison result = compareRepeats({&fast, &good}, rows);
+    EXPECT_TRUE(result.isByError);
+    EXPECT_DOUBLE_EQ(result.ratio, 4);
+    good.camera = "elsewhere";
+    EXPECT_EQ(compareRepeats({&fast, &good}, rows).ratio, 0);
+    EXPECT_EQ(compareRuns(fast, good).timeToEqualError, 0);
+}
+
 TEST(RunGroups, AReferenceIsToBeThreeTimesAsGoodAsWhatItMeasures) {
     EXPECT_FALSE(isReferenceTooNoisy(0.09, 0.01));
     EXPECT_TRUE(isReferenceTooNoisy(0.0899, 0.01));

@@ -58,5 +58,21 @@ TEST(SceneLoader, TheLastRequestIsTheOneThatCounts) {
     EXPECT_FALSE(failed);
 }
 
+TEST(SceneLoader, WhatIsGivenUpIsNotHandedOverAndWasNeverRequested) {
+    std::atomic<int> count{0};
+    SceneLoader loader([&](LoadedScene) { ++count; });
+    loader.request({"one-weekend-default"});
+    while (loader.busyWith()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    loader.request({"many-lights:1000000"}); // seconds
+    EXPECT_FALSE(loader.isWanted({"one-weekend-default"}));
+    loader.giveUp();
+    EXPECT_FALSE(loader.busyWith());
+    EXPECT_EQ(loader.lastRequest().source, "one-weekend-default");
+    loader.request({"cornell-box-lights"});
+    EXPECT_TRUE(loader.isWanted({"cornell-box-lights"}));
+    while (loader.busyWith()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(count, 2);
+}
+
 } // namespace
 } // namespace rt::app

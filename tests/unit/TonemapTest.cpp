@@ -39,7 +39,7 @@ TEST(Tonemap, SrgbGrowsAndKeepsEveryByte) {
 
 TEST(Tonemap, ExposureIsInStops) {
     const vec3 color(0.1f, 0.2f, 0.05f);
-    for (const uint curve : {kTonemapNone, kTonemapReinhard, kTonemapAces, kTonemapAgx}) {
+    for (const uint curve : {kTonemapNone, kTonemapReinhard, kTonemapAces, kTonemapAgx, kTonemapNeutral}) {
         const vec3 shown = tonemap(color, 2.0f, curve), scaled = tonemap(color * 4.0f, 0.0f, curve);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], scaled[c], 1e-6f);
     }
@@ -81,8 +81,31 @@ TEST(Tonemap, AgxHoldsItsStopsAndFadesLightsToWhite) {
     EXPECT_GT(bright.x, 0.5f);
 }
 
+// By its specification, in double: colours of materials in white light come out as they are (4 % is what a dielectric
+// of index 1.5 reflects), and what is far beyond white is white.
+TEST(Tonemap, NeutralKeepsColoursBelowWhite) {
+    const auto shown = [](const vec3& color) { return tonemap(color, 0.0f, kTonemapNeutral); };
+    const vec3 blue = shown(vec3(0.14f, 0.34f, 0.74f));
+    EXPECT_NEAR(blue.x, 0.10, 1e-6);
+    EXPECT_NEAR(blue.y, 0.30, 1e-6);
+    EXPECT_NEAR(blue.z, 0.70, 1e-6);
+    EXPECT_NEAR(shown(vec3(0.02f)).x, 6.25 * 0.02 * 0.02, 1e-7);
+    // Continuous where both pieces meet, in value.
+    EXPECT_NEAR(shown(vec3(0.7999f)).x, shown(vec3(0.8001f)).x, 3e-4);
+    EXPECT_NEAR(shown(vec3(0.0799f)).x, shown(vec3(0.0801f)).x, 3e-4);
+    for (const double grey : {1.0, 2.0, 16.0}) {
+        const double peak = grey - 0.04;
+        EXPECT_NEAR(shown(vec3(float(grey))).x, 1 - 0.24 * 0.24 / (peak + 0.24 - 0.76), 1e-6) << grey;
+    }
+    // A bright blue light keeps its blue ahead of the others and pales.
+    const vec3 lamp = shown(vec3(1, 1, 8)), glare = shown(vec3(100, 100, 800));
+    EXPECT_GT(lamp.z, lamp.x);
+    EXPECT_GT(glare.x, 0.95f);
+    EXPECT_GT(glare.x / glare.z, lamp.x / lamp.z);
+}
+
 TEST(Tonemap, AnyRadianceStaysInRange) {
-    for (const uint curve : {kTonemapNone, kTonemapReinhard, kTonemapAces, kTonemapAgx}) {
+    for (const uint curve : {kTonemapNone, kTonemapReinhard, kTonemapAces, kTonemapAgx, kTonemapNeutral}) {
         float before = 0;
         for (const float x : {0.0f, 1e-38f, 1e-6f, 0.1f, 1.0f, 100.0f, 1e10f, 1e30f, 3e38f}) {
             for (const float stops : {-20.0f, 0.0f, 20.0f}) {

@@ -59,7 +59,8 @@ class WindowFilesTest : public ::testing::Test {
 TEST_F(WindowFilesTest, AreWrittenWhenTheFirstRenderEnds) {
     const auto session = start(5);
     ASSERT_TRUE(reaches(*session, [](const SessionState& s) { return s.activity == Activity::Finished; }));
-    ASSERT_TRUE(reaches(*session, [](const SessionState& s) { return s.messageSerial == 2; }));
+    ASSERT_TRUE(reaches(*session, [](const SessionState& s) { return s.messageSerial == 1; }));
+    EXPECT_NE(session->state().message.find("a.samples.exr"), std::string::npos); // each of them is named
     EXPECT_EQ(image::readImage(path("a.exr")).width, 8u);
     EXPECT_EQ(image::readImage(path("a.samples.exr")).data.front(), 5);
     const nlohmann::json json = statistics();

@@ -116,6 +116,16 @@ void CameraController::dolly(double steps) {
     set(moved);
 }
 
+void CameraController::frame(const glm::dvec3& center, double radius, double aspect) {
+    const double high = 0.5 * camera_.verticalFov * 0.017453292519943295, wide = std::atan(aspect * std::tan(high));
+    const double distance = radius / std::sin(std::min(high, wide));
+    scene::CameraDesc moved = camera_;
+    moved.lookAt = center;
+    moved.lookFrom = center - distance * frameOf(camera_).forward;
+    moved.focusDistance = distance;
+    set(moved);
+}
+
 void CameraController::changeSpeed(double steps) {
     const double home = glm::length(home_.lookAt - home_.lookFrom);
     const double factor = std::pow(kSpeedStep, std::clamp(steps, -40.0, 40.0));

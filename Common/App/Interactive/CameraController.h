@@ -26,6 +26,8 @@ class CameraController {
     // Moves camera and target across the view, by shares of the image's height at the target's distance.
     void pan(double right, double up);
     void dolly(double steps); // towards the target, positive: nearer
+    // As far back as all of a sphere is in sight of an image of that aspect ratio (width / height).
+    void frame(const glm::dvec3& center, double radius, double aspect);
     void changeSpeed(double steps);
     double speed() const { return speed_; } // units a second
 

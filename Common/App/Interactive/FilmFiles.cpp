@@ -42,11 +42,14 @@ std::vector<std::string> writeFilm(const SaveRequest& request, Options options, 
         outputs.failures.push_back(messageOf(error));
     }
     if (!lost.empty()) outputs.failures.insert(outputs.failures.begin(), lost);
-    for (const std::string& file : outputs.written) state.say("Saved " + file);
+    std::string saved;
+    for (const std::string& file : outputs.written) saved += (saved.empty() ? "Saved " : "\n") + file;
+    if (!saved.empty()) state.say(saved); // all of them at once: what is said is seen until something else is
     return outputs.failures;
 }
 
 void writePreview(const SaveRequest& request, const Preview& preview, PublishedState& state) {
+    std::string saved;
     for (const std::string& file : request.files) {
         try {
             if (preview.picture.data.empty()) throw RenderError("nothing to save yet: the preview is being drawn");
@@ -54,11 +57,12 @@ void writePreview(const SaveRequest& request, const Preview& preview, PublishedS
             const image::ImageRows picture = preview.picture;
             image::writeImage(
                 file, image::isDisplayReferred(file) ? image::toDisplay(picture, request.exposure, curve) : picture);
-            state.say("Saved the preview as " + file);
+            saved += (saved.empty() ? "Saved the preview as " : "\n") + file;
         } catch (...) {
             state.fail(std::current_exception(), ErrorSource::Save);
         }
     }
+    if (!saved.empty()) state.say(saved);
 }
 
 RunRecord makeRecord(const std::string& program, const LoadedScene& scene, const FilmRun& film,
@@ -69,6 +73,7 @@ RunRecord makeRecord(const std::string& program, const LoadedScene& scene, const
     record.app = program;
     record.engine = report.engine;
     record.device = report.device;
+    record.isSoftware = report.isSoftware;
     record.threads = report.threads;
     record.spp = film.engine().film().samplesPerPixel();
     record.loadSeconds = scene.seconds;

@@ -32,14 +32,14 @@ struct GuiSettings {
     bool showComparison = false;
     bool showStatistics = true;
     std::map<std::string, bool>
-        openPanels;                  // whether each is folded out, by its id; others are as the table of panels says
-    float exposure = 0;              // stops
-    bool autoExposure = false;       // on top of what suits the picture
-    Tonemap tonemap = Tonemap::Agx;  // lights keep their colour and shape on the screen
-    bool reloadScenes = true;        // when their files change
-    bool sawFirstSteps = false;      // the hint of the first run
-    std::string saveFolder;          // empty: chosen by the program
-    std::vector<std::string> recent; // scene files that have loaded, the latest first
+        openPanels;                     // whether each is folded out, by its id; others are as the table of panels says
+    float exposure = 0;                 // stops
+    bool autoExposure = false;          // on top of what suits the picture
+    Tonemap tonemap = Tonemap::Neutral; // colours below white stay what they are
+    bool reloadScenes = true;           // when their files change
+    bool sawFirstSteps = false;         // the hint of the first run
+    std::string saveFolder;             // empty: chosen by the program
+    std::vector<std::string> recent;    // scene files that have loaded, the latest first
     std::string scene = "cornell-box-lights";
     RenderRequest request;
     bool rayTracing = true; // of ray-tracing-gpu; off: its preview

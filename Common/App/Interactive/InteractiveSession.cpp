@@ -27,8 +27,13 @@ bool differsInBudgetsAlone(const RenderRequest& before, RenderRequest after) {
 }
 
 InteractiveSession::InteractiveSession(Setup setup)
-    : setup_(std::move(setup)), state_(setup_.onChange), loader_([this](LoadedScene loaded) {
-          mailbox_.post(Cancel::Nothing, [&](Requests& requests) { requests.scene = std::move(loaded); });
+    : setup_(std::move(setup)),
+      sentSize_(setup_.request.size),
+      state_(setup_.onChange),
+      loader_([this](LoadedScene loaded) {
+          mailbox_.post(Cancel::FirstPicture, [&](Requests& requests) {
+              if (loader_.isWanted(loaded.request)) requests.scene = std::move(loaded);
+          });
       }) {
     mailbox_.post(Cancel::Nothing, [this](Requests& requests) { requests.engine = setup_.engine; });
     state_.setStage("Loading " + setup_.scene.source);
@@ -49,9 +54,24 @@ EndFiles InteractiveSession::close() {
     return endFiles_;
 }
 
+// What is being built for the scene before is of no use any more, and neither is one that waits for that.
+void InteractiveSession::dropScenes() {
+    mailbox_.post(Cancel::Build, [this](Requests& requests) {
+        if (requests.scene && !loader_.isWanted(requests.scene->request)) requests.scene.reset();
+        requests.dropsScene = true;
+    });
+}
+
 void InteractiveSession::open(const std::string& source) {
-    state_.setStage("Loading " + source);
+    state_.setStage("Loading " + source); // first: it may be there in no time
     loader_.open(source);
+    dropScenes();
+}
+
+void InteractiveSession::stop() {
+    loader_.giveUp();
+    dropScenes();
+    post(Cancel::Build, Command::Stop);
 }
 
 bool InteractiveSession::reopen(const std::string& source) {
@@ -62,8 +82,14 @@ bool InteractiveSession::reopen(const std::string& source) {
 
 void InteractiveSession::change(const RenderRequest& request) {
     // Which lights there are is decided by the compiler.
-    if (loader_.setOneSidedLights(request.oneSidedLights)) state_.setStage("Loading " + loader_.lastRequest().source);
-    mailbox_.post(Cancel::Slice, [&](Requests& requests) {
+    if (loader_.lastRequest().oneSidedLights != request.oneSidedLights) {
+        state_.setStage("Loading " + loader_.lastRequest().source);
+        loader_.setOneSidedLights(request.oneSidedLights);
+        dropScenes();
+    }
+    // A film of another size is not waited for: to reserve a large one takes a while.
+    const bool isAnotherSize = std::exchange(sentSize_, request.size) != request.size;
+    mailbox_.post(isAnotherSize ? Cancel::FirstPicture : Cancel::Slice, [&](Requests& requests) {
         requests.request = request;
         noteChange(requests);
     });

@@ -28,7 +28,7 @@ class InteractiveSession {
     bool reopen(const std::string& source);
     void change(const RenderRequest& request);
     void choose(const EngineChoice& engine) {
-        mailbox_.post(Cancel::FirstPicture, [&](Requests& requests) { requests.engine = engine; });
+        mailbox_.post(Cancel::Build, [&](Requests& requests) { requests.engine = engine; });
     }
     void moveCamera(const scene::CameraDesc& camera,
                     std::uint64_t sceneSerial);               // ignored if the scene is another by now
@@ -36,7 +36,8 @@ class InteractiveSession {
     // Likewise, but a film that has ended goes on where it has samples to go: those that a change has added to it.
     void goOn() { post(Cancel::Nothing, Command::GoOn); }
     void pause() { post(Cancel::Slice, Command::Pause); }
-    void stop() { post(Cancel::FirstPicture, Command::Stop); }
+    // Ends the film, and gives up what is being loaded or prepared: the scene before stays.
+    void stop();
     void reset() { post(Cancel::FirstPicture, Command::Reset); } // begins anew
     void save(SaveRequest request) {                             // where a picture is yet to come, once it is there
         mailbox_.post(Cancel::Nothing, [&](Requests& requests) { requests.saves.push_back(std::move(request)); });
@@ -66,6 +67,11 @@ class InteractiveSession {
     void pickFocus(std::uint32_t x, std::uint32_t y) {
         mailbox_.post(Cancel::Slice, [x, y](Requests& requests) { requests.focus = {x, y}; });
     }
+    // Whether the user has hold of something that changes the film, as of the camera: films that end meanwhile are runs
+    // of the history only if they are still seen when it is let go.
+    void hold(bool isHeld) {
+        mailbox_.post(Cancel::Nothing, [isHeld](Requests& requests) { requests.held = isHeld; });
+    }
     // What is to be written once, when the first render ends by itself or by stop(), or in close() before that.
     void writeAtEnd(const SaveRequest& request) {
         mailbox_.post(Cancel::Nothing, [&](Requests& requests) { requests.atEnd = request; });
@@ -80,12 +86,14 @@ class InteractiveSession {
     SessionState state() const;
 
   private:
+    void dropScenes();
     using Command = Requests::Command;
     void post(Cancel cancel, Command command) {
         mailbox_.post(cancel, [command](Requests& requests) { requests.command = command; });
     }
 
     Setup setup_;
+    SizeRequest sentSize_;
     Mailbox mailbox_;
     PublishedState state_;
     SceneLoader loader_; // its thread posts to the mailbox

@@ -34,6 +34,7 @@ struct EngineDevice {
     std::string name;
     std::string request;                // as --device takes it: the name, or the index where names are alike
     std::vector<GpuEngineKind> engines; // that it has
+    bool isSoftware = false;            // a driver that works on the processor
 };
 using EngineMaker = std::function<std::unique_ptr<Engine>(const EngineChoice&)>;
 
@@ -65,6 +66,7 @@ struct Picture {
     std::shared_ptr<const image::Image> radiance; // the same, but for views of something else
     bool isDisplay = false;                       // no exposure and no tone curve belong to it
     bool isPreview = false;                       // by rasterisation
+    std::shared_ptr<const image::Image> values{}; // that the image shows, where it is no radiance
     std::optional<Legend> legend{};               // of the image's colours, where they stand for something else
     std::uint64_t serial = 0;                     // grows with each new picture
     std::uint64_t spp = 0; // of every pixel, adaptive ones in the mean; 0: partly a draft of lower resolution

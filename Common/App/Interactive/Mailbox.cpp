@@ -14,7 +14,7 @@ void Mailbox::post(Cancel cancel, const std::function<void(Requests&)>& change) 
 Requests Mailbox::take(bool wait) {
     std::unique_lock lock(mutex_);
     wake_.wait(lock, [&] { return !wait || requests_.any(); });
-    for (const Cancel what : {Cancel::Slice, Cancel::FirstPicture})
+    for (const Cancel what : {Cancel::Slice, Cancel::FirstPicture, Cancel::Build})
         cancelled_[static_cast<std::size_t>(what)] = requests_.quit;
     return std::exchange(requests_, {});
 }

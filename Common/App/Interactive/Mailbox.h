@@ -21,11 +21,13 @@ namespace rt::app {
 struct Requests {
     enum class Command { Render, GoOn, Pause, Stop, Reset };
     bool quit = false;
+    bool dropsScene = false; // that was loaded and is not wanted any more
     std::optional<EngineChoice> engine{};
     std::optional<RenderRequest> request{};
     std::optional<LoadedScene> scene{};
     std::optional<std::pair<std::uint64_t, scene::CameraDesc>> camera{}; // and the serial of its scene
     std::optional<Command> command{};
+    std::optional<bool> held{}; // the user has hold of something that changes the film
     std::vector<SaveRequest> saves{};
     std::optional<SaveRequest> atEnd{};
     std::optional<ViewRequest> view{};
@@ -36,7 +38,7 @@ struct Requests {
     std::optional<std::array<std::uint32_t, 2>> focus{}; // pixel
     std::optional<Stopwatch> changed{};                  // since the first change of camera or settings
 
-    bool any() const { return needEngine() || concernFiles(); }
+    bool any() const { return needEngine() || concernFiles() || dropsScene || held; }
     bool needEngine() const { return changeWhatIsSeen() || concernFilm(); }
     bool changeWhatIsSeen() const { return camera || changeAllButCamera(); }
     bool moveCameraAlone() const { return camera && !changeAllButCamera() && !concernFilm() && !concernFiles(); }
@@ -52,7 +54,7 @@ enum class Cancel {
     Nothing,
     Slice,        // of a film
     FirstPicture, // of a film: other requests wait for it, as a camera in motion would never show anything
-    Build,        // of a scene, for good
+    Build,        // of a scene; it begins anew unless the request replaces it
 };
 
 class Mailbox {

@@ -37,6 +37,7 @@ RunRecord recordOf(const OtherJob& job, const std::string& statistics) {
     record.app = json.at("app");
     record.engine = json.at("engine");
     record.device = json.at("device");
+    record.isSoftware = json.at("device_is_software");
     record.threads = json.at("threads");
     record.spp = json.at("spp_done");
     const nlohmann::json& seconds = json.at("seconds");

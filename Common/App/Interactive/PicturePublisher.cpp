@@ -47,6 +47,7 @@ void copyRows(const image::Image& rows, std::uint32_t first, image::Image& all) 
 void put(const std::shared_ptr<const ViewImage>& view, Picture& picture) {
     picture.image = {view, &view->image};
     picture.legend = view->legend;
+    picture.values = {view, &view->values};
     picture.isDisplay = true;
 }
 

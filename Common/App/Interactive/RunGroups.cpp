@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "Common/App/Options/Options.h"
+
 namespace rt::app {
 namespace {
 
@@ -68,9 +70,41 @@ RunGroups groupByWork(const std::vector<const RunRecord*>& runs) {
 Comparison compareRuns(const RunRecord& first, const RunRecord& second) {
     Comparison result;
     if (first.samplesPerSecond > 0) result.samplesPerSecond = second.samplesPerSecond / first.samplesPerSecond;
-    if (first.hasReference != second.hasReference || first.efficiency() <= 0) return result;
+    if (first.hasReference != second.hasReference || first.efficiency() <= 0 || !isSamePicture(first, second))
+        return result;
     result.timeToEqualError = second.efficiency() / first.efficiency();
     result.isMeasured = first.hasReference;
+    return result;
+}
+
+RunPair pairOf(const RunRecord& a, const RunRecord& b) {
+    const bool isSwapped = a.app != b.app ? a.app == kGpuProgram : b.time < a.time;
+    return isSwapped ? RunPair{&b, &a} : RunPair{&a, &b};
+}
+
+RepeatedComparison compareRepeats(const RunPair& pair, const std::vector<RunRow>& rows) {
+    RepeatedComparison result;
+    result.isByError = !isSameWork(*pair.first, *pair.second);
+    const auto repeatsOf = [&](const RunRecord& run) {
+        std::vector<double> figures;
+        for (const RunRow& row : rows) {
+            const RunRecord& r = *row.record;
+            const bool isRepeat = &r == &run || (r.app == run.app && r.engine == run.engine && r.device == run.device &&
+                                                 r.threads == run.threads && isSameWork(r, run));
+            const double figure = result.isByError ? r.efficiency() : r.samplesPerSecond;
+            if (isRepeat && figure > 0 && (!result.isByError || r.hasReference == run.hasReference))
+                figures.push_back(figure);
+        }
+        Repeats repeats;
+        if (figures.empty()) return repeats;
+        std::sort(figures.begin(), figures.end());
+        const std::size_t count = figures.size();
+        return Repeats{count, 0.5 * (figures[(count - 1) / 2] + figures[count / 2]), figures.front(), figures.back()};
+    };
+    result.first = repeatsOf(*pair.first);
+    result.second = repeatsOf(*pair.second);
+    const bool isComparable = !result.isByError || compareRuns(*pair.first, *pair.second).timeToEqualError > 0;
+    if (isComparable && result.first.median > 0) result.ratio = result.second.median / result.first.median;
     return result;
 }
 

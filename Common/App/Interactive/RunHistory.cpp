@@ -77,6 +77,7 @@ void forEachLaterField(Record&& r, const Visit& visit) {
 
 // Likewise, but no part of the work.
 constexpr const char* kReferenceError = "reference_relmse";
+constexpr const char* kSoftware = "software_device";
 
 RunRecord fromJson(const nlohmann::json& json) {
     RunRecord r;
@@ -90,6 +91,7 @@ RunRecord fromJson(const nlohmann::json& json) {
     if (r.edgeRays.empty()) r.edgeRays = nameOf(kEdgeRays, false);
     if (r.pathReuse.empty()) r.pathReuse = nameOf(kPathReuse, PathReuse::Off);
     r.referenceError = json.value(kReferenceError, 0.0);
+    r.isSoftware = json.value(kSoftware, false);
     for (const nlohmann::json& point : json.at("curve")) r.curve.push_back({point.at(0), point.at(1)});
     return r;
 }
@@ -129,6 +131,7 @@ std::string toJsonLine(const RunRecord& r) {
     forEachField(r, put);
     forEachLaterField(r, put);
     if (r.referenceError > 0) json[kReferenceError] = r.referenceError;
+    if (r.isSoftware) json[kSoftware] = true;
     json["curve"] = curve;
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -139,12 +142,12 @@ std::string toCsv(const std::vector<RunRecord>& records) {
     const auto putColumn = [&](const char*, const char* column, const auto&) { out << column << ','; };
     forEachField(RunRecord{}, putColumn);
     forEachLaterField(RunRecord{}, putColumn);
-    out << kReferenceError << ",efficiency\n" << std::setprecision(9);
+    out << kReferenceError << ',' << kSoftware << ",efficiency\n" << std::setprecision(9);
     for (const RunRecord& r : records) {
         const auto put = [&](const char*, const char*, const auto& value) { out << csvField(value) << ','; };
         forEachField(r, put);
         forEachLaterField(r, put);
-        out << r.referenceError << ',' << r.efficiency() << '\n';
+        out << r.referenceError << ',' << r.isSoftware << ',' << r.efficiency() << '\n';
     }
     return out.str();
 }
@@ -158,12 +161,12 @@ std::string lackingIn(const RunRecord& record) {
 }
 
 std::vector<WorkField> workOf(const RunRecord& r) {
-    return {{"Scene", r.scene},
-            {"Contents", r.sceneHash, false},
-            {"Camera", r.camera, false},
-            {"Size", std::to_string(r.width) + " x " + std::to_string(r.height)},
+    return {{"Scene", r.scene, true, true},
+            {"Contents", r.sceneHash, false, true},
+            {"Camera", r.camera, false, true},
+            {"Size", std::to_string(r.width) + " x " + std::to_string(r.height), true, true},
             {"SPP", std::to_string(r.spp)},
-            {"Depth", std::to_string(r.maxDepth)},
+            {"Depth", std::to_string(r.maxDepth), true, true},
             {"Estimator", r.lightSampling},
             {"Sampler", r.sampler},
             {"Light selection", r.lightSelection},
@@ -171,10 +174,10 @@ std::vector<WorkField> workOf(const RunRecord& r) {
             {"Quad lights", r.quadLight},
             {"Triangle lights", r.triangleLight},
             {"Roulette", r.russianRoulette},
-            {"One-sided", r.oneSidedLights},
+            {"One-sided", r.oneSidedLights, true, true},
             {"Adaptive", r.adaptive},
-            {"Glass spheres", r.specularConnections},
-            {"Edges of lights", r.edgeRays},
+            {"Glass connections", r.specularConnections},
+            {"Edge rays", r.edgeRays},
             {"Path reuse", r.pathReuse}};
 }
 
@@ -182,6 +185,13 @@ bool isSameWork(const RunRecord& a, const RunRecord& b) {
     const auto isEqual = [](const WorkField& x, const WorkField& y) { return x.value == y.value; };
     const std::vector<WorkField> ours = workOf(a), theirs = workOf(b);
     return std::equal(ours.begin(), ours.end(), theirs.begin(), isEqual) && lackingIn(a).empty();
+}
+
+bool isSamePicture(const RunRecord& a, const RunRecord& b) {
+    const std::vector<WorkField> ours = workOf(a), theirs = workOf(b);
+    return std::equal(ours.begin(), ours.end(), theirs.begin(), [](const WorkField& x, const WorkField& y) {
+        return !x.isOfPicture || (x.value == y.value && !x.value.empty());
+    });
 }
 
 EnginePair newestOfEqualWork(const std::vector<const RunRecord*>& newestFirst) {

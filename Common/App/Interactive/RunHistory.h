@@ -24,6 +24,7 @@ struct RunRecord {
     std::string lightSelection, sphereLight, quadLight, triangleLight, russianRoulette, oneSidedLights, adaptive,
         specularConnections, edgeRays, pathReuse;
     double relmse = 0;
+    bool isSoftware = false;   // the device is a driver that works on the processor
     bool hasReference = false; // relmse is against a reference; otherwise the film's own estimate
     double referenceError = 0; // the reference's own relMSE, estimated; 0: not known
     struct Point {
@@ -80,12 +81,15 @@ std::string lackingIn(const RunRecord& record);
 struct WorkField {
     const char* title;
     std::string value;
-    bool isShort = true; // what a cell of a table has room for
+    bool isShort = true;      // what a cell of a table has room for
+    bool isOfPicture = false; // what more samples come to depends on it
 };
 std::vector<WorkField> workOf(const RunRecord& record);
 
 // Whether all that the work depends on is known of both and equal. Engine, device and threads are left free.
 bool isSameWork(const RunRecord& a, const RunRecord& b);
+// Whether they make the same picture but for its noise: scene, camera, size, depth and sides of lights are equal.
+bool isSamePicture(const RunRecord& a, const RunRecord& b);
 
 // One run of each program; both or none.
 struct EnginePair {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "Common/Core/Interruption.h"
 #include "Common/Image/Metrics.h"
 #include "Common/Render/RenderParams.h"
 
@@ -108,7 +109,10 @@ void SessionFilm::start(const FilmSubject& subject) {
     // Kernels may have to be compiled, a large film takes a while to be had.
     const auto before = run_ ? run_->settings() : postponed_;
     const bool isAnotherSize = before && (settings.width != before->width || settings.height != before->height);
-    if (!before || isAnotherSize) state_.setStage("Preparing " + subject.scene.title);
+    if (!before && setup_.options.program == kGpuProgram)
+        state_.setStage("Compiling shaders");
+    else if (!before || isAnotherSize)
+        state_.setStage("Allocating memory");
     if (!before) publisher.forgetLatency();
     publisher.discardViews();
     state_.update([&](SessionState& state) { // the progress of the film before is not this one's
@@ -152,8 +156,10 @@ void SessionFilm::renderFirst(FilmRun& run, double sliceSeconds, double patience
     if (run.status().samplesDone > 0) speed_.learn(run.status().samplesDone, run.seconds());
 }
 
+// Throws Interrupted where the film is given up before it is there.
 void SessionFilm::begin(const FilmSubject& subject, RenderSettings settings) {
     postponed_.reset();
+    const Interruptible interruptible(mailbox_.cancelled(Cancel::FirstPicture));
     const ReferenceKey view = keyOf(subject, settings);
     if (reference.renderedSpp()) { // on top of what there is
         image::Film kept = setup_.references.load(view).value_or(image::Film());

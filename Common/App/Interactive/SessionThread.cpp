@@ -8,6 +8,7 @@
 #include "Common/App/Platform.h"
 #include "Common/App/Session/Reference.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
 #include "Common/Core/Log.h"
 
 namespace rt::app {
@@ -25,7 +26,7 @@ SessionThread::SessionThread(const SessionSetup& setup, Mailbox& mailbox, Publis
 EndFiles SessionThread::run() {
     lowerThreadPriority();
     while (true) {
-        Requests requests = mailbox_.take(!hasWork());
+        Requests requests = mailbox_.take(!hasWork() && !isRetrying());
         if (requests.atEnd) atEnd_ = requests.atEnd;
         if (requests.quit) break;
         try {
@@ -34,6 +35,8 @@ EndFiles SessionThread::run() {
             if (isReady() && !requests.moveCameraAlone()) film_.beginPostponed(subject());
             apply(std::move(requests));
             if (hasWork()) isPreviewing() ? renderPreview() : renderFilm();
+        } catch (const Interrupted&) { // by a request that comes next
+            state_.setStage("");
         } catch (...) {
             state_.fail(std::current_exception());
             state_.setStage("");
@@ -49,6 +52,10 @@ EndFiles SessionThread::run() {
 // ---- what was asked for --------------------------------------------------------------------------------------------
 
 void SessionThread::apply(Requests requests) {
+    if (requests.dropsScene && waitingScene_ && !loader_.isWanted(waitingScene_->request)) waitingScene_.reset();
+    if (!requests.scene) requests.scene = std::exchange(waitingScene_, std::nullopt);
+    if (!requests.engine) requests.engine = waitingEngine_;
+    waitingEngine_.reset();
     film_.publisher.awaitPicture(requests.changed);
     // A device that was lost does not come back to the engine that used it.
     const bool needEngine = requests.needEngine();
@@ -81,16 +88,20 @@ void SessionThread::apply(Requests requests) {
     // What was changed is looked at, unless the user has stopped rendering.
     if (film_.isStale() && needEngine && activity_ != Activity::Stopped && !isActive())
         setActivity(Activity::Rendering);
+    if (requests.held && std::exchange(isHeld_, *requests.held) && !isHeld_) recordWaiting();
     writeWaiting();
 }
 
 // An engine that cannot be had leaves the one before at work.
 void SessionThread::makeEngine(const EngineChoice& choice) {
-    state_.setStage("Starting the engine");
+    state_.setStage(setup_.options.program == kGpuProgram ? "Compiling shaders" : "Starting the engine");
     film_.publisher.forgetLatency();
     try {
         std::unique_ptr<Engine> engine = setup_.makeEngine(choice);
-        if (loaded_.scene && !engine->setScene(loaded_.scene, &mailbox_.cancelled(Cancel::Build))) return;
+        if (loaded_.scene && !engine->setScene(loaded_.scene, &mailbox_.cancelled(Cancel::Build))) {
+            waitingEngine_ = choice;
+            return state_.setStage("");
+        }
         // Compiles what a film like the present one needs.
         if (const auto& film = film_.run()) engine->reset(film->camera(), film->settings());
         film_.discard();
@@ -126,12 +137,18 @@ void SessionThread::adopt(LoadedScene loaded) {
         state_.setStage("Loading " + setup_.fallbackScene);
         return loader_.open(setup_.fallbackScene);
     }
-    if (!engine_) return;
+    if (!engine_) {
+        if (waitingEngine_) waitingScene_ = std::move(loaded);
+        return;
+    }
     const scene::CompiledScene& scene = *loaded.scene;
     state_.setStage("Building " + scene.title);
     film_.publisher.forgetLatency();
     try {
-        if (!engine_->setScene(loaded.scene, &mailbox_.cancelled(Cancel::Build))) return;
+        if (!engine_->setScene(loaded.scene, &mailbox_.cancelled(Cancel::Build))) {
+            waitingScene_ = std::move(loaded); // until the request that has interrupted it says otherwise
+            return state_.setStage("");
+        }
     } catch (...) {
         return failScene(std::current_exception(), !loaded_.scene);
     }
@@ -164,8 +181,9 @@ void SessionThread::obey(Requests::Command command) {
         return setActivity(Activity::Paused);
     }
     if (command == Command::Stop && !film_.reference.renderedSpp()) {
+        if (activity_ == Activity::Preparing) setActivity(Activity::Stopped);
         if (isActive() || activity_ == Activity::Paused) finish(StopReason::Interrupted);
-        return;
+        return state_.setStage("");
     }
     if (command == Command::Stop) film_.reference.giveUp(); // the picture before comes back
     if (command == Command::GoOn && !film_.isStale() && film_.isFinished()) return;
@@ -205,7 +223,7 @@ void SessionThread::findFocus(std::uint32_t x, std::uint32_t y) {
     request.depth = true;
     const image::Image depth = isPreviewing() ? film_.publisher.preview().depth : engine_->renderAovs(request, 1).depth;
     const auto distance = focusDistance(depth, x, y, camera_.verticalFov);
-    if (!distance) return;
+    if (!distance) return state_.say("Nothing is there that could be made sharp");
     state_.update([&](SessionState& state) {
         state.focusDistance = *distance;
         ++state.focusSerial;
@@ -272,8 +290,16 @@ void SessionThread::finish(StopReason reason) {
     }
 }
 
+void SessionThread::recordWaiting() {
+    const bool isStillSeen = activity_ == Activity::Finished && !film_.isStale();
+    if (std::exchange(waitsForRecord_, false) && isStillSeen && record())
+        state_.update([](SessionState& state) { ++state.historySerial; });
+}
+
 bool SessionThread::record() {
     if (setup_.history == nullptr || !request_.accumulate) return false;
+    waitsForRecord_ = isHeld_;
+    if (isHeld_) return false;
     try {
         setup_.history->append(makeRecord(setup_.options.program, loaded_, *film_.run(), film_.reference));
         return true;
@@ -281,54 +307,6 @@ bool SessionThread::record() {
         state_.fail(std::current_exception()); // the render itself is well
         return false;
     }
-}
-
-// ---- files ---------------------------------------------------------------------------------------------------------
-
-void SessionThread::writeWaiting() {
-    const bool isComing = !isReady()       ? activity_ != Activity::Failed
-                          : isPreviewing() ? previewIsStale_
-                                           : isActive() && !film_.hasFirstSamples();
-    if (isComing) return;
-    for (const SaveRequest& save : std::exchange(waiting_, {})) write(save);
-}
-
-void SessionThread::write(const SaveRequest& request) {
-    if (isPreviewing()) {
-        const RenderSettings size = sizedSettings(request_, *loaded_.scene);
-        const Preview& shown = film_.publisher.preview();
-        const bool isOfThatSize = shown.picture.width == size.width && shown.picture.height == size.height;
-        return writePreview(request, isOfThatSize ? shown : drawPreview(*engine_, camera_, size, size.width), state_);
-    }
-    if (!film_.hasSamples()) {
-        state_.fail(std::make_exception_ptr(RenderError("nothing to save yet: the picture is being prepared")),
-                    ErrorSource::Save);
-        return;
-    }
-    for (const std::string& failure : writeFiles(request, StopReason::Interrupted))
-        state_.fail(std::make_exception_ptr(RenderError(failure)), ErrorSource::Save);
-}
-
-// Of the film; returns what cannot be written, one line each.
-std::vector<std::string> SessionThread::writeFiles(const SaveRequest& request, StopReason reason) {
-    Options options = setup_.options;
-    options.oneSidedLights = request_.oneSidedLights;
-    options.timeLimit = request_.timeLimit;
-    options.targetError = request_.targetError;
-    options.policy = choice_.policy;
-    return writeFilm(request, options, loaded_, *film_.run(), film_.reference, reason, state_);
-}
-
-// What the program was started to write, once: when the first render ends, or when the window closes before that.
-void SessionThread::writeEnd(StopReason reason) {
-    if (!atEnd_ || endIsWritten_) return;
-    endIsWritten_ = true;
-    // A film without samples is written, too: whoever waits for the files is told so by their notes and statistics.
-    endFiles_.hasFilm = film_.run().has_value();
-    endFiles_.failures = endFiles_.hasFilm ? writeFiles(*atEnd_, reason)
-                                           : std::vector<std::string>{"nothing was rendered that could be written"};
-    for (const std::string& failure : endFiles_.failures)
-        state_.fail(std::make_exception_ptr(RenderError(failure)), ErrorSource::Save);
 }
 
 } // namespace rt::app

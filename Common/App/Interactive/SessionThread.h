@@ -34,6 +34,7 @@ class SessionThread {
     bool isReady() const { return engine_ && loaded_.scene; }
     bool isActive() const { return activity_ == Activity::Rendering; }
     bool isPreviewing() const { return previewIsWanted_ && engine_ && engine_->canPreview(); }
+    bool isRetrying() const { return waitingEngine_ || waitingScene_; }
     bool hasWork() const { return isReady() && (isPreviewing() ? previewIsStale_ : isActive() || film_.isRefining()); }
 
     FilmSubject subject() const { return {*engine_, *loaded_.scene, camera_, request_}; } // requires isReady()
@@ -41,7 +42,8 @@ class SessionThread {
     void showFilm();
     void renderPreview();
     void finish(StopReason reason);
-    bool record();
+    bool record(); // now, or when nothing is held any more; whether it was now
+    void recordWaiting();
 
     // Files.
     void writeWaiting();
@@ -57,10 +59,15 @@ class SessionThread {
     EngineChoice choice_;
     std::unique_ptr<Engine> engine_;
     LoadedScene loaded_; // the engine's scene
+    // Were given up for something else that was wanted, and are tried again after it.
+    std::optional<EngineChoice> waitingEngine_;
+    std::optional<LoadedScene> waitingScene_;
     std::uint64_t sceneSerial_ = 0;
     scene::CameraDesc camera_;
     RenderRequest request_;
     Activity activity_ = Activity::Preparing;
+
+    bool isHeld_ = false, waitsForRecord_ = false; // as InteractiveSession::hold() says
 
     SessionFilm film_;
     std::uint32_t previewWidth_ = 0; // 0: the picture's

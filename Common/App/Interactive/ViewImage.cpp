@@ -16,6 +16,22 @@ float meanOf(const float* rgb) {
     return (rgb[0] + rgb[1] + rgb[2]) / 3;
 }
 
+float percentile(std::vector<float> values, double share) {
+    if (values.empty()) return 0;
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+// To 1, 2 or 5 times a power of ten, so that pictures of one film have one scale for a while.
+float roundedUp(float value) {
+    if (!(value > 0)) return 1;
+    const float power = std::pow(10.0f, std::floor(std::log10(value)));
+    for (const float step : {1.0f, 2.0f, 5.0f})
+        if (value <= step * power) return step * power;
+    return 10 * power;
+}
+
 // Near is bright; where nothing was hit it is black.
 image::Image greys(const std::vector<float>& level, std::uint32_t width, std::uint32_t height) {
     image::Image result(width, height, 3);
@@ -27,7 +43,9 @@ image::Image greys(const std::vector<float>& level, std::uint32_t width, std::ui
 }
 
 ViewImage show(const Legend& legend, const std::vector<float>& values, std::uint32_t width, std::uint32_t height) {
-    return {paint(legend, values, width, height), legend};
+    ViewImage view{paint(legend, values, width, height), legend, image::Image(width, height, 1)};
+    view.values.data = values;
+    return view;
 }
 
 } // namespace
@@ -56,7 +74,7 @@ image::Image paint(const Legend& legend, const std::vector<float>& values, std::
 }
 
 ViewImage showFeatures(ViewMode mode, const AovImages& images) {
-    if (mode == ViewMode::Albedo) return {images.albedo, {}};
+    if (mode == ViewMode::Albedo) return {images.albedo, {}, images.albedo};
     if (mode == ViewMode::Depth) {
         const image::Image& depth = images.depth;
         Legend legend{Legend::Quantity::Distance};
@@ -65,7 +83,7 @@ ViewImage showFeatures(ViewMode mode, const AovImages& images) {
     }
     image::Image normals = images.normal;
     for (float& value : normals.data) value = shared::srgbDecode(std::clamp(0.5f * value + 0.5f, 0.0f, 1.0f));
-    return {std::move(normals), {}};
+    return {std::move(normals), {}, images.normal};
 }
 
 ViewImage showNoise(const image::Film& film, double scale) {
@@ -76,7 +94,8 @@ ViewImage showNoise(const image::Film& film, double scale) {
         const float error = std::sqrt(std::max(0.0f, meanOf(&variance.data[3 * i])));
         relative[i] = error / (std::abs(meanOf(&mean.data[3 * i])) + kFloor);
     }
-    return show({Legend::Quantity::StandardError, static_cast<float>(1 / scale)}, relative, mean.width, mean.height);
+    const float maximum = roundedUp(percentile(relative, 0.99)) / static_cast<float>(scale);
+    return show({Legend::Quantity::StandardError, maximum}, relative, mean.width, mean.height);
 }
 
 ViewImage showError(const image::Image& picture, const image::Image& reference, double scale) {

@@ -48,16 +48,17 @@ image::Image paint(const Legend& legend, const std::vector<float>& values, std::
 struct ViewImage {
     image::Image image;
     std::optional<Legend> legend;
+    image::Image values{}; // that the pixels show: one channel with a legend, else three; of a picture's draft none
 };
 
 // Albedo, normal or depth.
 ViewImage showFeatures(ViewMode mode, const AovImages& images);
 
-// The standard error of each pixel's mean relative to that mean; 1 / scale has the brightest colour. Requires what
-// Film::varianceOfMean() requires.
+// The standard error of each pixel's mean relative to that mean; what one pixel in a hundred exceeds, rounded up and
+// divided by `scale`, has the brightest colour. Requires what Film::varianceOfMean() requires.
 ViewImage showNoise(const image::Film& film, double scale);
 
-// |picture - reference| relative to the reference, likewise.
+// |picture - reference| relative to the reference; 1 / scale has the brightest colour.
 ViewImage showError(const image::Image& picture, const image::Image& reference, double scale);
 
 // The cost of each pixel on a logarithmic scale: the most that any pixel costs, divided by `scale`, has the brightest

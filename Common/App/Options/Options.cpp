@@ -173,7 +173,7 @@ void addOutput(FlagSet& flags, ParsedFlags& parsed) {
              })
         ->default_str("0");
     flags.addChoice("--tonemap", kTonemaps, options.tonemap,
-                    "for PNG; none clamps, agx is the filmic curve that windows begin with");
+                    "for PNG; none clamps, neutral is the curve that windows begin with, agx a filmic one");
     flags.add("--aov", "LIST",
               "write albedo,normal,depth,variance,samples,denoised,denoised-error as well, as NAME.albedo.EXT",
               [&options](const std::string& flag, const std::string& text) {

@@ -52,6 +52,7 @@ nlohmann::json toJson(const EngineReport& report) {
     const shared::Features& features = report.features;
     return {{"engine", report.engine},
             {"device", report.device},
+            {"is_software", report.isSoftware},
             {"kernel", report.kernel},
             {"threads", report.threads},
             {"features", {features.scene, features.materials, features.methods}},
@@ -70,6 +71,7 @@ EngineReport toReport(const nlohmann::json& json) {
     EngineReport report;
     report.engine = json.at("engine");
     report.device = json.at("device");
+    report.isSoftware = json.at("is_software");
     report.kernel = json.at("kernel");
     report.threads = json.at("threads");
     const nlohmann::json& features = json.at("features");

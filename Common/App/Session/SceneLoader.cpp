@@ -44,8 +44,21 @@ void SceneLoader::request(SceneRequest request) {
         last_ = request;
         next_ = std::move(request);
         callOff_ = true;
+        isGivenUp_ = false;
     }
     wake_.notify_one();
+}
+
+void SceneLoader::giveUp() {
+    const std::scoped_lock lock(mutex_);
+    if (next_ || current_) last_ = handedOver_;
+    next_.reset();
+    isGivenUp_ = callOff_ = true;
+}
+
+bool SceneLoader::isWanted(const SceneRequest& request) const {
+    const std::scoped_lock lock(mutex_);
+    return !isGivenUp_ && request == last_;
 }
 
 void SceneLoader::open(const std::string& source) {
@@ -69,7 +82,7 @@ SceneRequest SceneLoader::lastRequest() const {
 std::optional<std::string> SceneLoader::busyWith() const {
     const std::scoped_lock lock(mutex_);
     if (next_) return next_->source;
-    if (current_) return current_->source;
+    if (current_ && !isGivenUp_) return current_->source;
     return std::nullopt;
 }
 
@@ -85,8 +98,9 @@ void SceneLoader::work() {
         lock.unlock();
         LoadedScene loaded = load(request, callOff_);
         lock.lock();
-        const bool wanted = !quit_ && !next_;
+        const bool wanted = !quit_ && !next_ && !isGivenUp_;
         if (wanted) {
+            handedOver_ = request;
             lock.unlock();
             onLoaded_(std::move(loaded));
             lock.lock();

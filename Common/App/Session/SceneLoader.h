@@ -34,6 +34,9 @@ class SceneLoader {
     void open(const std::string& source); // as what was requested last, but for the camera: the scene's own
     bool setOneSidedLights(bool on);      // loads anew what was requested last; false: it is loaded so
     SceneRequest lastRequest() const;
+    void
+    giveUp(); // what is loaded or has just been; where it is being loaded, the last request is then the one before that was handed over
+    bool isWanted(const SceneRequest& request) const; // nothing else has been requested, nor has it been given up
     // What is being loaded, if anything.
     std::optional<std::string> busyWith() const;
 
@@ -44,6 +47,8 @@ class SceneLoader {
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     SceneRequest last_; // requested
+    SceneRequest handedOver_;
+    bool isGivenUp_ = false; // what is being loaded
     std::optional<SceneRequest> next_;
     std::optional<SceneRequest> current_;
     bool quit_ = false;

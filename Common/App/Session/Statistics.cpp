@@ -111,6 +111,7 @@ std::string Statistics::toJson(const Options& options, const scene::CompiledScen
               {"scene_hash", hexText(scene.hash)},
               {"engine", report.engine},
               {"device", report.device},
+              {"device_is_software", report.isSoftware},
               {"threads", report.threads},
               {"width", settings.width},
               {"height", settings.height},

@@ -35,7 +35,7 @@ void drawCameras(Gui& gui) {
                                  [&gui](const auto& named) { return named.second == gui.camera.home(); });
     std::string shown = at != cameras.end() ? printable(at->first) : kOwn;
     if (gui.camera.camera() != gui.camera.home()) shown += ", moved";
-    const Disabled rest(cameras.size() < 2);
+    const Disabled rest(cameras.size() < 2, "the scene has one camera");
     row("Camera", "Those that the scene has; R leads back to the one that is chosen");
     if (!ImGui::BeginCombo("##camera", shown.c_str())) return;
     for (const auto& [name, camera] : cameras) {
@@ -81,11 +81,13 @@ void drawCameraPanel(Gui& gui) {
         gui.fail("No camera can look from this position at this target", app::ErrorSource::Camera);
     drawErrorOf(gui, app::ErrorSource::Camera);
     double speed = gui.camera.speed();
-    row("Flying speed", "Units of the scene in a second; the mouse wheel changes it");
+    row("Flying speed", "Units of the scene in a second; Alt + mouse wheel changes it");
     ImGui::Text("%.4g / s", speed);
 
     const float space = ImGui::GetStyle().ItemSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - 2 * space) / 3;
+    if (button("Frame all", "Moves back until all of the scene is in sight (Home)", gui.state.scene != nullptr, -1))
+        gui.frameAll();
     if (button("Copy pose", "To the clipboard, as JSON (Ctrl+Shift+C)", true, width)) gui.copyPose();
     ImGui::SameLine(0, space);
     if (button("Paste pose", "From the clipboard (Ctrl+Shift+V)", true, width)) gui.pastePose();

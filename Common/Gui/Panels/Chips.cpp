@@ -1,11 +1,14 @@
 // Over the picture: what it is.
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "Common/Gui/Panels/Panels.h"
+#include "Common/Gui/Panels/RunTexts.h"
 #include "Common/Gui/Panels/StatusTexts.h"
+#include "Common/Gui/Panels/ViewModes.h"
 #include "Common/Gui/Theme.h"
 #include "Common/Gui/Widgets.h"
 
@@ -66,28 +69,56 @@ ChipLayout placeChips(const Gui& gui, const Rect& area, float scale) {
 
 // Whether both can be compared: the line between them is drawn.
 bool isSplit(const Gui& gui) {
-    const image::Image* shown = gui.state.picture.image.get();
-    return gui.held && shown != nullptr && shown->width == gui.held->width && shown->height == gui.held->height;
+    const image::Image *shown = gui.state.picture.image.get(), *held = gui.pinned.shown().get();
+    return held != nullptr && shown != nullptr && shown->width == held->width && shown->height == held->height;
 }
 
-// At the top of the picture, below the chips.
+// What the sides are, with what differs between them, what is shown of them, and the errors that are known.
+std::pair<std::string, std::string> sideTexts(const Gui& gui) {
+    const std::optional<app::RunRecord> work = gui.workInView();
+    std::string a = "A: " + sideTitle(gui.pinned.title(), gui.pinned.work(), work);
+    std::string b = "B: " + sideTitle(gui.pictureTitle(), work, gui.pinned.work());
+    if (a.substr(1) == b.substr(1)) a += ", pinned";
+    if (gui.viewRequest.mode != app::ViewMode::Picture) {
+        const std::string view = std::string(", ") + rowOf(gui.viewRequest.mode).name;
+        a += gui.pinned.isSameView() ? view : ", picture (no such view of it)";
+        b += view;
+    }
+    if (gui.pinned.relmse()) a += ", relMSE " + errorText(*gui.pinned.relmse());
+    if (gui.state.relmse && !gui.state.curve.empty()) b += ", relMSE " + errorText(*gui.state.relmse);
+    return {std::move(a), std::move(b)};
+}
+
+// At the top of the picture, below the chips: at both sides of the line, or below each other.
 void drawSides(const Gui& gui, const Rect& area, float imageTop, float chipsBottom, float scale) {
-    const float em = ImGui::GetFontSize(), gap = 6 * scale;
+    const float em = ImGui::GetFontSize(), gap = 6 * scale, height = kHeight * em;
     const float y = std::max(imageTop, chipsBottom) + gap, line = area.x + gui.split * area.width;
-    const std::string left = "A: " + gui.heldTitle, right = "B: " + gui.pictureTitle();
-    const float width = chipWidth(left, false);
-    if (y + kHeight * em > area.y + area.height) return;
-    if (line - gap - width > area.x) drawChip({line - gap - width, y}, left, nullptr);
-    if (line + gap + chipWidth(right, false) < area.x + area.width) drawChip({line + gap, y}, right, nullptr);
+    const auto [left, right] = sideTexts(gui);
+    const float width = chipWidth(left, false), end = area.x + area.width;
+    if (y + height > area.y + area.height) return;
+    const bool isSplit = gui.compareBy == CompareBy::Split;
+    const bool fits = line - gap - width > area.x && line + gap + chipWidth(right, false) < end;
+    if (isSplit && fits) {
+        drawChip({line - gap - width, y}, left, nullptr);
+        return drawChip({line + gap, y}, right, nullptr);
+    }
+    std::vector<std::string> texts{left, right};
+    if (gui.compareBy == CompareBy::Difference) texts.insert(texts.begin(), "B - A, fourfold, about grey");
+    const float room = area.width - 2 * gap - 2 * kPadding * em;
+    float at = y;
+    for (const std::string& text : texts) {
+        if (at + height > area.y + area.height) return;
+        drawChip({area.x + gap, at}, elided(text, room), nullptr);
+        at += height + 0.3f * em;
+    }
 }
 
 } // namespace
 
 Rect innerArea(const Gui& gui, const Rect& area, float scale) {
-    const float border = kBorder * scale, legend = legendHeight(gui, area, scale);
+    const float border = kBorder * scale;
     const float top = placeChips(gui, area, scale).bottom - area.y + 0.6f * border;
-    const float bottom = border + (legend > 0 ? legend + border : 0);
-    const Rect inner{area.x + border, area.y + top, area.width - 2 * border, area.height - top - bottom};
+    const Rect inner{area.x + border, area.y + top, area.width - 2 * border, area.height - top - border};
     const bool isEnough = inner.width > kMinShare * area.width && inner.height > kMinShare * area.height;
     return isEnough ? inner : area;
 }

@@ -143,8 +143,12 @@ std::vector<ChartLegendRow> makeLegend(const Gui& gui) {
     };
     for (const bool isGpu : {false, true}) {
         if (!occurs([isGpu](const RunRecord& r) { return isGpuRun(r) == isGpu; })) continue;
+        const bool isSoftware = isGpu && !occurs([](const RunRecord& r) { return isGpuRun(r) && !r.isSoftware; });
         const ImVec4 color = engineColor(isGpu, gui.settings.colorMode);
-        legend.push_back({isGpu ? "GPU" : "CPU", ImGui::ColorConvertFloat4ToU32(color), Mark::Circle, false});
+        legend.push_back({!isGpu       ? "CPU"
+                          : isSoftware ? "GPU (software)"
+                                       : "GPU",
+                          ImGui::ColorConvertFloat4ToU32(color), Mark::Circle, false});
     }
     for (const auto& estimator : app::kLightSamplings) {
         const std::string name{estimator.name};
@@ -201,6 +205,13 @@ void drawRunActions(Gui& gui) {
     if (button("Export PNG", "The chart as it is shown, to the same folder", true)) gui.chartRequested = true;
 }
 
+RunBoard::InView inView(const Gui& gui) {
+    RunBoard::InView view;
+    view.picture = gui.workInView();
+    if (gui.pinned) view.pinned = gui.pinned.work();
+    return view;
+}
+
 void deleteRuns(Gui& gui) {
     try {
         gui.history.remove(std::exchange(gui.runsToDelete, {}));
@@ -213,7 +224,7 @@ void deleteRuns(Gui& gui) {
 
 void drawComparisonPanel(Gui& gui) {
     if (!gui.runsToDelete.empty()) deleteRuns(gui);
-    gui.runs.update(gui.history, gui.onlyThisScene && gui.state.scene ? gui.state.scene->id : "");
+    gui.runs.update(gui.history, gui.onlyThisScene && gui.state.scene ? gui.state.scene->id : "", inView(gui));
     const float space = ImGui::GetStyle().ItemSpacing.x, font = ImGui::GetFontSize();
     const bool isNarrow = ImGui::GetContentRegionAvail().x < kNarrow * font; // the chart is below, not beside
     drawEngineCards(gui, [&gui] { drawReference(gui); });

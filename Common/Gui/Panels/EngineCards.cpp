@@ -18,14 +18,7 @@ namespace {
 using app::RunRecord;
 using Phase = app::OtherState::Phase;
 
-constexpr float kWidth = 15, kMinWidth = 13; // of a card, in heights of the font
-
-// "3.2x faster", "1.31x slower"
-std::string ratioText(double ratio) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g\u00d7 %s", ratio >= 1 ? ratio : 1 / ratio, ratio >= 1 ? "faster" : "slower");
-    return text;
-}
+constexpr float kCardWidth = 15, kMinCardWidth = 13; // of a card, in heights of the font
 
 struct CardLine {
     std::string name, value;
@@ -57,8 +50,9 @@ void drawCard(float width, const char* title, ImU32 color, const std::vector<Car
 void drawRunCard(const Gui& gui, float width, const RunRecord* run, bool isGpu) {
     const ImU32 color = ImGui::ColorConvertFloat4ToU32(engineColor(isGpu, gui.settings.colorMode));
     if (run == nullptr)
-        return drawCard(width, isGpu ? "GPU" : "CPU", color, {{"No run of the same work", ""}, {"", ""}, {"", ""}},
-                        "Only runs that agree in scene, camera, size, SPP, depth, estimator and sampler are compared");
+        return drawCard(width, isGpu ? "GPU" : "CPU", color, {{"No run of this work yet", ""}, {"", ""}, {"", ""}},
+                        "The cards show runs of what is in view: the same scene, camera, size, SPP, depth, estimator "
+                        "and sampler. Two rows that are selected in the table are compared, whatever they are of");
     const std::string kind = errorKind(*run);
     drawCard(width, engineText(*run).c_str(), color,
              {{"Time", shortDuration(run->renderSeconds)},
@@ -67,9 +61,19 @@ void drawRunCard(const Gui& gui, float width, const RunRecord* run, bool isGpu) 
              runDetails(*run) + "\n" + whatErrorKindMeans(*run));
 }
 
-void drawSpeedUp(float width, const app::EnginePair& pair) {
-    const app::Comparison comparison = app::compareRuns(*pair.cpu, *pair.gpu);
-    std::string toError = "not known", tip = "Needs the errors of both runs, of one kind: render or load a reference";
+// What differs in what both did.
+std::string differenceOf(const app::RunPair& pair) {
+    const std::vector<app::WorkField> first = app::workOf(*pair.first), second = app::workOf(*pair.second);
+    std::string text;
+    for (std::size_t i = 0; i < first.size(); ++i)
+        if (first[i].value != second[i].value) text += (text.empty() ? "" : ", ") + std::string(first[i].title);
+    return text;
+}
+
+void drawSpeedUp(float width, const app::RunPair& pair) {
+    const app::Comparison comparison = app::compareRuns(*pair.first, *pair.second);
+    std::string toError = "not known",
+                tip = "Needs the errors of both runs, of one kind and of one picture: render or load a reference";
     if (comparison.timeToEqualError > 0) {
         toError = ratioText(comparison.timeToEqualError);
         tip = std::string(
@@ -79,20 +83,31 @@ void drawSpeedUp(float width, const app::EnginePair& pair) {
               (comparison.isMeasured ? "measured against a reference" : "the films' own estimates, no measurements");
     }
     const std::string kind = comparison.timeToEqualError <= 0 ? "" : comparison.isMeasured ? "measured" : "estimated";
-    drawCard(width, "GPU against CPU", ImGui::GetColorU32(ImGuiCol_Text),
+    const std::string difference = differenceOf(pair);
+    if (!difference.empty()) tip += "\nThe work differs in: " + difference;
+    const auto name = [](const RunRecord& run) { return isGpuRun(run) ? "GPU" : "CPU"; };
+    const bool areAlike = isGpuRun(*pair.first) == isGpuRun(*pair.second);
+    const std::string title =
+        areAlike ? "Second against first" : std::string(name(*pair.second)) + " against " + name(*pair.first);
+    drawCard(width, title.c_str(), ImGui::GetColorU32(ImGuiCol_Text),
              {{"Equal error", toError},
               {"Errors", kind.empty() ? "-" : kind},
               {"Samples/s", ratioText(comparison.samplesPerSecond)}},
              tip);
 }
 
-// The newest run of a program that is shown; null: none.
-const RunRecord* newestOf(const RunBoard& runs, bool isGpu) {
-    const RunRecord* newest = nullptr;
-    for (const app::RunRow& row : runs.groups().rows)
-        if (isGpuRun(*row.record) == isGpu && (newest == nullptr || row.record->time > newest->time))
-            newest = row.record;
-    return newest;
+void drawHeadline(const Gui& gui) {
+    const app::RunPair& pair = gui.runs.pair();
+    if (pair.first == nullptr)
+        return ImGui::TextDisabled("%s", elided("Compared are two rows that are selected, or runs of both programs of "
+                                                "what is in view: there are none yet",
+                                                ImGui::GetContentRegionAvail().x)
+                                             .c_str());
+    const std::string text = headlineOf(pair, app::compareRepeats(pair, gui.runs.groups().rows));
+    ImGui::TextUnformatted(elided(text, ImGui::GetContentRegionAvail().x).c_str());
+    tooltip((text + ".\nRuns repeat each other where work, engine, device and threads are equal; two engines are told "
+                    "apart where no run of one is within the range of the other's")
+                .c_str());
 }
 
 std::string otherLabel(const Gui& gui) {
@@ -133,14 +148,15 @@ void drawOther(Gui& gui) {
 } // namespace
 
 void drawEngineCards(Gui& gui, const std::function<void()>& drawMore) {
-    const app::EnginePair& pair = gui.runs.pair();
-    const bool isPair = pair.cpu != nullptr;
+    const app::RunPair& pair = gui.runs.pair();
+    const bool isPair = pair.first != nullptr;
+    drawHeadline(gui);
     const float em = ImGui::GetFontSize(), gap = ImGui::GetStyle().ItemSpacing.x, cards = isPair ? 3 : 2;
     const float rest = ImGui::GetContentRegionAvail().x - buttonWidth(otherLabel(gui).c_str()) - cards * gap;
-    const float width = std::floor(std::clamp(rest / cards, kMinWidth * em, kWidth * em));
-    drawRunCard(gui, width, isPair ? pair.cpu : gui.isGpu ? nullptr : newestOf(gui.runs, false), false);
+    const float width = std::floor(std::clamp(rest / cards, kMinCardWidth * em, kCardWidth * em));
+    drawRunCard(gui, width, isPair ? pair.first : gui.runs.cpuRun(), isPair && isGpuRun(*pair.first));
     besideIfItFits(width);
-    drawRunCard(gui, width, isPair ? pair.gpu : gui.isGpu ? newestOf(gui.runs, true) : nullptr, true);
+    drawRunCard(gui, width, isPair ? pair.second : gui.runs.gpuRun(), !isPair || isGpuRun(*pair.second));
     if (isPair) {
         besideIfItFits(width);
         drawSpeedUp(width, pair);

@@ -32,7 +32,7 @@ bool mayHave(GpuEngineKind kind, const EngineChoice& choice, const Devices& devi
 void drawProcessor(EngineChoice& engine, std::uint32_t threads) {
     markNextRow(engine.policy != EngineChoice().policy);
     combo("Engine", "std::execution policy that the workers run under", app::kPolicies, engine.policy);
-    const Disabled rest(engine.policy == app::Policy::Seq);
+    const Disabled rest(engine.policy == app::Policy::Seq, "one core has one thread");
     markNextRow(engine.threads != EngineChoice().threads);
     const std::string automatic = "Auto (" + std::to_string(threads) + ")";
     inputCount("Threads", "0: as many as the processor has", engine.threads, 0, 1024, 1, automatic.c_str());
@@ -73,7 +73,8 @@ void drawDevice(EngineChoice& engine, const Devices& devices) {
         ImGui::PopID();
     };
     choose("Best suitable", "");
-    for (const EngineDevice& device : devices) choose(device.name, device.request);
+    for (const EngineDevice& device : devices)
+        choose(device.name + (device.isSoftware ? " (software)" : ""), device.request);
     ImGui::EndCombo();
 }
 
@@ -93,12 +94,13 @@ void drawEnginePanel(Gui& gui) {
         return drawErrorOf(gui, app::ErrorSource::Engine);
     }
     {
-        const Disabled rest(gui.state.picture.isPreview); // which is rasterised whatever traces rays
+        const Disabled rest(gui.state.picture.isPreview,
+                            "the preview is rasterised"); // which is rasterised whatever traces rays
         drawKind(engine, gui.state, gui.devices);
     }
     drawDevice(engine, gui.devices);
     drawErrorOf(gui, app::ErrorSource::Engine);
-    const Disabled rest(!gui.state.canPreview);
+    const Disabled rest(!gui.state.canPreview, "this device draws no preview");
     checkbox("Enable ray tracing",
              "Off: the scene as it is drawn by rasterisation, at once, lit without shadows. Rays rest meanwhile (P)",
              gui.settings.rayTracing);

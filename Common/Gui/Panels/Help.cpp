@@ -18,6 +18,7 @@ constexpr HelpLine kLeft[] = {
     {"Space", "start, pause, resume"},
     {"Ctrl+R", "restart"},
     {"B", "pin the picture for A/B, unpin it"},
+    {"V", "A/B split, blink, difference"},
     {"H", "heat map: what each pixel costs"},
     {"P", "preview without ray tracing (GPU)"},
     {nullptr, "Scenes and files"},
@@ -44,16 +45,19 @@ constexpr HelpLine kRight[] = {
     {"Middle drag", "pan"},
     {"W A S D, Q E", "fly; down, up"},
     {"Shift, Ctrl", "fly fast, slowly"},
-    {"Wheel", "flying speed"},
+    {"Alt + wheel", "flying speed"},
     {"Shift + wheel", "nearer, farther"},
     {"Ctrl + click", "make sharp what is there"},
+    {"Home", "all of the scene"},
     {"R", "back to the chosen camera"},
     {"Ctrl+Shift+C, V", "copy, paste the pose"},
     {nullptr, "Picture"},
-    {"Ctrl + wheel", "zoom"},
+    {"Wheel", "zoom"},
     {"Ctrl + right drag", "move"},
     {"F", "fit"},
 };
+
+constexpr float kMinLetters = 0.6f;
 
 template <std::size_t N>
 void drawColumn(const char* id, const HelpLine (&shortcuts)[N]) {
@@ -80,11 +84,17 @@ void drawColumn(const char* id, const HelpLine (&shortcuts)[N]) {
 void drawHelp(Gui& gui) {
     if (!gui.showHelp) return;
     const ImVec2 size = ImGui::GetMainViewport()->Size;
-    ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
+    ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSizeConstraints({0, 0}, {size.x, size.y});
     constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
                                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_HorizontalScrollbar;
     if (ImGui::Begin("Help", &gui.showHelp, kFlags)) {
+        static ImVec2 whole{1, 1}; // of all of it, in letters of their own size, in the frame before
+        const float margin = 3 * ImGui::GetFrameHeight();
+        const float fit = std::min((size.x - margin) / whole.x, (size.y - margin) / whole.y);
+        const float letters = std::clamp(fit, kMinLetters, 1.0f); // of a small window they are smaller
+        ImGui::SetWindowFontScale(letters);
+        const ImVec2 corner = ImGui::GetCursorPos();
         ImGui::BeginGroup();
         drawColumn("##left", kLeft);
         ImGui::EndGroup();
@@ -92,6 +102,10 @@ void drawHelp(Gui& gui) {
         ImGui::BeginGroup();
         drawColumn("##right", kRight);
         ImGui::EndGroup();
+        ImGui::SameLine(0, 0);
+        const float width = ImGui::GetCursorPosX() - corner.x;
+        ImGui::NewLine();
+        whole = {width / letters, (ImGui::GetCursorPosY() - corner.y) / letters};
     }
     ImGui::End();
 }

@@ -12,10 +12,10 @@ namespace {
 
 using app::Legend;
 
-constexpr std::uint32_t kCells = 96;           // of the bar
-constexpr float kWidth = 15, kMinWidth = 5;    // of the box, in heights of the font
-constexpr float kMargin = 10;                  // around it, at scale 1
-constexpr float kPadding = 0.5f, kBar = 0.75f; // likewise: around all, and the bar's height
+constexpr std::uint32_t kCells = 96;                    // of the bar
+constexpr float kLegendWidth = 15, kMinLegendWidth = 5; // of the box, in heights of the font
+constexpr float kMargin = 10;                           // around it, at scale 1
+constexpr float kLegendPadding = 0.5f, kBar = 0.75f;    // likewise: around all, and the bar's height
 
 struct Measure {
     const char* title;
@@ -71,13 +71,13 @@ struct Box {
 Box boxOf(const Gui& gui, const Rect& area, float scale) {
     const std::optional<Legend>& legend = gui.state.picture.legend;
     if (!legend || !(legend->maximum > 0)) return {};
-    const float em = ImGui::GetFontSize(), padding = kPadding * em, margin = kMargin * scale;
+    const float em = ImGui::GetFontSize(), padding = kLegendPadding * em, margin = kMargin * scale;
     Box box;
-    box.width = std::min(kWidth * em, area.width - 2 * margin);
+    box.width = std::min(kLegendWidth * em, area.width - 2 * margin);
     const char* title = measureOf(legend->quantity, gui.isGpu).title;
     box.title = ImGui::CalcTextSize(title, nullptr, false, std::max(box.width - 2 * padding, 1.0f)).y;
     box.height = box.title + (0.25f + kBar + 0.25f) * em + ImGui::GetTextLineHeight() + 2 * padding;
-    if (box.width < kMinWidth * em || box.height > area.height - 2 * margin) return {};
+    if (box.width < kMinLegendWidth * em || box.height > area.height - 2 * margin) return {};
     return box;
 }
 
@@ -92,7 +92,7 @@ void drawViewLegend(const Gui& gui, const Rect& area, float scale) {
     if (box.height <= 0) return;
     const Legend& legend = *gui.state.picture.legend;
     const Measure measure = measureOf(legend.quantity, gui.isGpu);
-    const float em = ImGui::GetFontSize(), padding = kPadding * em, margin = kMargin * scale;
+    const float em = ImGui::GetFontSize(), padding = kLegendPadding * em, margin = kMargin * scale;
     const float inner = box.width - 2 * padding;
 
     // Below all windows: what is said for a while, and help, may cover it.

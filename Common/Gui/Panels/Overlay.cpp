@@ -18,6 +18,8 @@ constexpr ImGuiWindowFlags kBoxFlags = ImGuiWindowFlags_NoDecoration | ImGuiWind
 void beginBox(const char* name, const Rect& area, float y, float pivot, ImGuiWindowFlags flags) {
     ImGui::SetNextWindowPos({area.x + 0.5f * area.width, y}, ImGuiCond_Always, {0.5f, pivot});
     ImGui::SetNextWindowBgAlpha(0.95f);
+    // Over the picture alone, however large the letters are.
+    ImGui::SetNextWindowSizeConstraints({1, 1}, {std::max(1.0f, area.width), std::max(1.0f, 0.9f * area.height)});
     ImGui::Begin(name, nullptr, kBoxFlags | flags);
 }
 

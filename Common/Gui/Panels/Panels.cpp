@@ -12,9 +12,11 @@ constexpr PanelRow kPanels[] = {
     {"rendering", "Rendering", Panel::Place::Side, true, atTheSide, drawRenderPanel},
     {"camera", "Camera", Panel::Place::Side, false, atTheSide, drawCameraPanel},
     {"view", "View", Panel::Place::Side, false, atTheSide, drawViewPanel},
+    {"file", "File", Panel::Place::Side, false, atTheSide, drawFilePanel},
     {"statistics", "Statistics", Panel::Place::Side, false,
      [](const app::GuiSettings& settings) { return settings.showPanels && settings.showStatistics; },
      drawStatisticsPanel},
+    {"settings", "Settings", Panel::Place::Side, false, atTheSide, drawSettingsPanel},
     {"comparison", "Comparison", Panel::Place::Bottom, true,
      [](const app::GuiSettings& settings) { return settings.showComparison; }, drawComparisonPanel},
 };

@@ -23,13 +23,16 @@ void drawScenePanel(Gui& gui);
 void drawRenderPanel(Gui& gui);
 void drawCameraPanel(Gui& gui);
 void drawViewPanel(Gui& gui);
+void drawFilePanel(Gui& gui);
 void drawStatisticsPanel(Gui& gui);
+void drawSettingsPanel(Gui& gui);
 void drawComparisonPanel(Gui& gui);
 
 // ---- what is no panel ----------------------------------------------------------------------------------------------
 
 void drawToolbar(Gui& gui);
-void drawProgress(Gui& gui); // above all panels
+void drawHistogram(const Gui& gui); // of the picture's luminance, in the panel of the view
+void drawProgress(Gui& gui);        // above all panels
 void drawStatusLine(Gui& gui);
 void drawErrorOf(Gui& gui, app::ErrorSource source); // the latest unread one, at the field that it is about
 void drawErrors(Gui& gui);                           // a list of them, where it is open
@@ -37,8 +40,8 @@ void drawScenes(Gui& gui);                           // to choose from, likewise
 void drawHelp(Gui& gui);
 void drawFirstSteps(Gui& gui, const Rect& area); // until they are taken or sent away, once in the settings' life
 
-// The picture's part of the window without a border, where chips and legend have their places: a picture that fits it
-// is covered by neither.
+// The picture's part of the window without a border, where chips have their places: a picture that fits it is not
+// covered by them. A legend lies over a corner of it, as the picture keeps its size whatever is shown.
 Rect innerArea(const Gui& gui, const Rect& area, float scale);
 float legendHeight(const Gui& gui, const Rect& area, float scale);  // 0: there is none
 void drawViewLegend(const Gui& gui, const Rect& area, float scale); // in a corner of the picture's part of the window

@@ -34,11 +34,11 @@ void drawProgress(Gui& gui) {
     const float room = ImGui::GetContentRegionAvail().x;
     ImGui::TextDisabled("%s", elided(texts.line, room).c_str());
     tooltip(texts.line.c_str());
-    std::string last = "Render time: none yet"; // nothing moves when there is one
+    std::string last = "Last render: none yet"; // nothing moves when there is one
     std::string parts;
     if (state.lastRun) {
         const app::LastRun& run = *state.lastRun;
-        last = "Render time " + shortDuration(run.seconds.render) + " (" + std::to_string(run.spp) + " spp)";
+        last = "Last render " + shortDuration(run.seconds.render) + " (" + std::to_string(run.spp) + " spp)";
         parts =
             "The last render that ended, wall time of sampling alone, as in the statistics of a render without a "
             "window.\nLoad " +
@@ -53,8 +53,14 @@ void drawProgress(Gui& gui) {
 
 // The right end gives way to what matters of the left one.
 void drawStatusLine(Gui& gui) {
-    char fps[48];
-    std::snprintf(fps, sizeof fps, "%.0f fps   F1 help", gui.figures.window.framesPerSecond);
+    char fps[64];
+    const double zoom = 100.0 * static_cast<double>(gui.shownScale);
+    // Of a window at rest the rate says nothing.
+    const bool isMoving = gui.state.activity == app::Activity::Rendering || !gui.state.stage.empty();
+    if (isMoving)
+        std::snprintf(fps, sizeof fps, "%.0f %%   %.0f fps   F1 help", zoom, gui.figures.window.framesPerSecond);
+    else
+        std::snprintf(fps, sizeof fps, "%.0f %%   F1 help", zoom);
     const StatusParts parts = statusOf(gui.state);
     StatusParts minParts = parts;
     minParts.device.clear();

@@ -1,73 +1,20 @@
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include "Common/App/Platform.h"
 #include "Common/Gui/Panels/EnginePanel.h"
+#include "Common/Gui/Panels/ImageSize.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Widgets.h"
-#include "Common/Image/Film.h"
 
 namespace rt::gui {
 namespace {
 
-// Of an image of this aspect ratio whose film, with the pictures made of it, leaves half of the machine's memory to
-// others: one digit too many is not to end the program.
-std::uint32_t maxWidth(double aspect) {
-    constexpr double kPixelBytes = 100;
-    const double minimum = 1024, side = image::kMaxImageSide * std::min(1.0, aspect);
-    const double pixels = 0.5 * static_cast<double>(app::machineBytes()) / kPixelBytes;
-    if (pixels == 0) return image::kMaxImageSide;
-    return static_cast<std::uint32_t>(std::clamp(std::sqrt(pixels * aspect), minimum, std::max(minimum, side)));
-}
-
-void drawSize(Gui& gui) {
-    app::SizeRequest& size = gui.settings.request.size;
-    const app::RenderSettings& film = gui.state.settings;
-    const app::SizeRequest defaults = app::RenderRequest().size;
-    std::uint32_t width = size.width.value_or(film.width);
-    const std::uint32_t maximum =
-        std::max(width, maxWidth(static_cast<double>(film.width) / std::max(film.height, 1u)));
-    markNextRow(size.width != defaults.width);
-    if (inputCount("Width", "Pixels; the height follows from the aspect ratio", width, 1, maximum, 20)) {
-        if (size.height && size.width) size.aspect = static_cast<double>(*size.width) / *size.height;
-        size.width = width;
-        size.height.reset();
-    }
-    struct Aspect {
-        const char* name;
-        double value; // 0: the scene's
-    };
-    constexpr Aspect kAspects[] = {{"From scene", 0}, {"1:1", 1},        {"5:4", 1.25},      {"4:3", 4.0 / 3},
-                                   {"3:2", 1.5},      {"16:10", 1.6},    {"16:9", 16.0 / 9}, {"21:9", 21.0 / 9},
-                                   {"3:4", 0.75},     {"9:16", 9.0 / 16}};
-    const double ratio = size.aspect                 ? *size.aspect
-                         : size.width && size.height ? static_cast<double>(*size.width) / *size.height
-                                                     : 0;
-    char current[32];
-    std::snprintf(current, sizeof current, "%.3g : 1", ratio);
-    const char* name = current;
-    for (const Aspect& aspect : kAspects)
-        if (std::abs(aspect.value - ratio) < 1e-9) name = aspect.name;
-    markNextRow(ratio > 0);
-    row("Aspect ratio", "Width by height");
-    if (ImGui::BeginCombo("##aspect", name, ImGuiComboFlags_HeightLarge)) {
-        for (const Aspect& aspect : kAspects) {
-            if (!ImGui::Selectable(aspect.name, name == aspect.name)) continue;
-            if (!size.width) size.width = film.width;
-            size.height.reset();
-            size.aspect.reset();
-            if (aspect.value > 0) size.aspect = aspect.value;
-        }
-        ImGui::EndCombo();
-    }
-}
+constexpr const char* kNoRays = "ray tracing is off, and the preview takes no samples";
 
 // Of a line of --help.
 std::string sentence(std::string text) {
@@ -109,7 +56,7 @@ void drawMethods(app::RenderSettings& settings, Methods methods) {
                                                auto& value, const auto& byDefault) {
             if (!isAmong(methods, key)) return;
             const bool isOfLights = std::string_view(key).find("light") != std::string_view::npos;
-            const Disabled rest(isOfLights && !areLightsSampled && methods == Methods::Others);
+            const Disabled rest(isOfLights && !areLightsSampled && methods == Methods::Others, "light sampling is off");
             if (isStrategy(title) && !std::exchange(isHeaded, true)) drawStrategyHeading();
             markNextRow(value != byDefault);
             combo(methodLabel(title).c_str(), sentence(help).c_str(), table, value);
@@ -137,7 +84,7 @@ void drawFrames(app::RenderRequest& request) {
     if (checkbox("Auto frames", "Samples per frame: as many as there is time for between two frames", isAuto)) {
         request.samplesPerFrame = isAuto ? 0 : app::RenderRequest().samplesPerFrame;
     }
-    const Disabled rest(isAuto);
+    const Disabled rest(isAuto, "frames take as many samples as there is time for");
     markNextRow(!isAuto && request.samplesPerFrame != app::RenderRequest().samplesPerFrame);
     std::uint32_t shown = isAuto ? app::RenderRequest().samplesPerFrame : request.samplesPerFrame;
     if (inputCount(
@@ -167,6 +114,9 @@ void drawSamples(Gui& gui) {
                "Samples per pixel; every number is taken exactly. More go on from those there are, unless strata or "
                "adaptive samples are made for one number",
                spp, 1, kMax, 10);
+    std::uint32_t& depth = request.settings.maxDepth;
+    markNextRow(depth != app::RenderSettings().maxDepth);
+    inputCount("Max path depth", "Vertices of a path after the camera", depth, 1, 4096, 1);
     row("More samples", nullptr);
     if (button("+100 spp", "Goes on from the samples there are", request.accumulate && spp <= kMax - kMore)) {
         spp += kMore;
@@ -181,8 +131,6 @@ void drawSamples(Gui& gui) {
 void drawAdvanced(app::RenderRequest& request) {
     app::RenderSettings& settings = request.settings;
     const app::RenderSettings defaults;
-    markNextRow(settings.maxDepth != defaults.maxDepth);
-    inputCount("Max path depth", "Vertices of a path after the camera", settings.maxDepth, 1, 4096, 1);
     drawMethods(settings, Methods::Others);
     drawLights(request);
     markNextRow(settings.russianRoulette != defaults.russianRoulette);
@@ -216,17 +164,17 @@ void drawRenderPanel(Gui& gui) {
     const bool isPreview = gui.state.picture.isPreview;
     drawEnginePanel(gui);
     {
-        const Disabled rest(isPreview);
+        const Disabled rest(isPreview, kNoRays);
         drawSamples(gui);
         drawMethods(settings, Methods::LightSampling);
         drawMethods(settings, Methods::Sampler);
     }
-    drawSize(gui);
+    drawImageSize(gui);
     bool& isOpen = gui.settings.openPanels.try_emplace("advanced", false).first->second;
     ImGui::SetNextItemOpen(isOpen);
     isOpen = ImGui::TreeNodeEx("Advanced", ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
     if (isOpen) {
-        const Disabled rest(isPreview);
+        const Disabled rest(isPreview, kNoRays);
         drawAdvanced(gui.settings.request);
     }
     drawDefaults(gui);

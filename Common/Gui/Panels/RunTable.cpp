@@ -45,13 +45,14 @@ struct Column {
     const char* tip;
 };
 std::vector<Column> columnsOf(const app::RunGroups& groups) {
-    std::vector<Column> columns = {{"Engine", "The mark is that of the chart"}};
+    // What runs are compared by stays in sight, whatever differs between them.
+    std::vector<Column> columns = {{"Engine", "The mark is that of the chart"},
+                                   {"Time", "Seconds of sampling alone"},
+                                   {"relMSE", "Mean squared error relative to the reference"}};
     if (groups.groups > 1) columns.push_back({"Work", "Runs of one letter did the same work: only they are compared"});
     for (const char* title : groups.columns) columns.push_back({title, "Differs between the runs that are shown"});
-    const Column figures[] = {{"Time", "Seconds of sampling alone"},
-                              {"relMSE", "Mean squared error relative to the reference"},
-                              {"Error is", "Measured against a reference, or estimated by the film itself"},
-                              {"Efficiency", "1 / (relMSE x seconds)"},
+    const Column figures[] = {{"Error is", "Measured against a reference, or estimated by the film itself"},
+                              {"1/(error\u00b7s)", "Efficiency: 1 / (relMSE x seconds)"},
                               {"Samples/s", nullptr},
                               {"Rays/s", nullptr},
                               {"Device", nullptr},
@@ -84,7 +85,7 @@ void drawEngineCell(Gui& gui, const RunRow& row) {
         gui.runs.select(r, ImGui::GetIO().KeyCtrl);
     ImGui::PopStyleColor();
     if (ImGui::IsItemHovered()) gui.runs.hover(r);
-    tooltip((runDetails(r) + "\nClick: select; with Ctrl: also").c_str());
+    tooltip((runDetails(r) + "\nClick: select; with Ctrl: also. Two that are selected are compared").c_str());
     ImGui::PopID();
     const ImU32 color = ImGui::ColorConvertFloat4ToU32(engineColor(isGpuRun(r), gui.settings.colorMode));
     drawMark(*ImGui::GetWindowDrawList(), markOf(r.lightSampling), {corner.x + 0.5f * em, corner.y + 0.5f * em},
@@ -96,23 +97,23 @@ void drawEngineCell(Gui& gui, const RunRow& row) {
 void drawRow(Gui& gui, const RunRow& row) {
     const app::RunRecord& r = *row.record;
     ImGui::TableNextRow();
-    const app::EnginePair& pair = gui.runs.pair();
-    if (row.record == pair.cpu || row.record == pair.gpu)
+    const app::RunPair& pair = gui.runs.pair();
+    if (row.record == pair.first || row.record == pair.second)
         ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, ImGui::GetColorU32(ImGuiCol_CheckMark, kComparedShare));
     if (gui.runs.isHovered(r))
         ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg1, ImGui::GetColorU32(ImGuiCol_HeaderHovered));
     drawEngineCell(gui, row);
-    if (gui.runs.groups().groups > 1) cell(letters(row.group));
-    for (const std::string& text : row.cells) isNumber(text) ? numberCell(text) : cell(text);
     numberCell(shortDuration(r.renderSeconds));
     numberCell(errorText(r.relmse));
+    if (gui.runs.groups().groups > 1) cell(letters(row.group));
+    for (const std::string& text : row.cells) isNumber(text) ? numberCell(text) : cell(text);
     const bool isNoisy = r.hasReference && app::isReferenceTooNoisy(r.relmse, r.referenceError);
     cell(errorKind(r) + (isNoisy ? ", noisy reference" : ""));
     tooltip(whatErrorKindMeans(r).c_str());
     numberCell(r.efficiency() > 0 ? withPrefix(r.efficiency()) : "-");
     numberCell(withPrefix(r.samplesPerSecond));
     numberCell(withPrefix(r.raysPerSecond));
-    cell(r.device);
+    cell(r.device + (r.isSoftware ? " (software)" : ""));
     cell(whenText(r));
 }
 

@@ -11,8 +11,35 @@ namespace rt::gui {
 
 std::string engineText(const app::RunRecord& run) {
     std::string text = (isGpuRun(run) ? "GPU " : "CPU ") + run.engine;
+    if (run.isSoftware) text += " (software)";
     if (run.threads > 1) text += ", " + std::to_string(run.threads) + " threads";
     return text;
+}
+
+std::string ratioText(double ratio) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g\u00d7 %s", ratio >= 1 ? ratio : 1 / ratio, ratio >= 1 ? "faster" : "slower");
+    return text;
+}
+
+std::string percentText(double share) {
+    char text[24];
+    std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+    return text;
+}
+
+std::string headlineOf(const app::RunPair& pair, const app::RepeatedComparison& repeats) {
+    const std::string by = repeats.isByError ? " (time to equal error)" : " (samples/s)";
+    const std::string first = engineText(*pair.first), second = engineText(*pair.second);
+    const std::string counts = std::to_string(repeats.first.count) + " and " + std::to_string(repeats.second.count);
+    if (!(repeats.ratio > 0)) return second + " against " + first + ": not known, for want of errors of one picture";
+    if (!repeats.isKnown())
+        return second + " is " + ratioText(repeats.ratio) + " than " + first + by + ": " + counts +
+               " runs; three of each tell how far repeated runs differ";
+    const std::string spread = "medians of " + counts + " runs, which spread over " +
+                               percentText(repeats.first.spread()) + " and " + percentText(repeats.second.spread());
+    if (!repeats.isToldApart()) return first + " and " + second + " are not told apart" + by + ": " + spread;
+    return second + " is " + ratioText(repeats.ratio) + " than " + first + by + ": " + spread;
 }
 
 std::string whenText(const app::RunRecord& run) {
@@ -47,6 +74,7 @@ std::string whatErrorKindMeans(const app::RunRecord& run) {
 std::string runDetails(const app::RunRecord& run) {
     const std::string lacking = lackingIn(run);
     return (run.time.empty() ? "" : whenText(run) + " UTC, ") + run.device +
+           (run.isSoftware ? " (a driver that works on the processor)" : "") +
            (lacking.empty() ? "" : "\nCompared with no other run: the record lacks " + lacking);
 }
 

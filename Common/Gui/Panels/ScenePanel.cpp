@@ -68,7 +68,7 @@ void drawScenePanel(Gui& gui) {
     if (button("Reload", "Reads the scene again", !gui.state.source.empty(), width)) gui.openScene(gui.state.source);
     drawErrorOf(gui, app::ErrorSource::Scene);
     {
-        const Disabled rest(builtin != nullptr);
+        const Disabled rest(builtin != nullptr, "the scene is built in, and no file");
         checkbox("Reload on change", "Reads a scene file again whenever it has changed on the disk",
                  gui.settings.reloadScenes);
     }

@@ -23,10 +23,6 @@ std::string_view bookOf(const scene::BuiltinScene& scene) {
     const std::size_t colon = scene.title.find(':');
     return colon == std::string_view::npos ? "More scenes" : scene.title.substr(0, colon);
 }
-std::string_view titleIn(const scene::BuiltinScene& scene) {
-    const std::size_t colon = scene.title.find(": ");
-    return colon == std::string_view::npos ? scene.title : scene.title.substr(colon + 2);
-}
 
 bool matches(const scene::BuiltinScene& scene, const std::string& search) {
     return contains(scene.title, search) || contains(scene.description, search) || contains(scene.id, search);
@@ -53,7 +49,7 @@ bool drawCell(Gui& gui, const scene::BuiltinScene& scene, bool isSelected) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     if (!gui.thumbnails.draw(std::string(scene.id), corner, side))
         list.AddRectFilled(corner, {corner.x + side, corner.y + side}, ImGui::GetColorU32(ImGuiCol_FrameBg));
-    const std::string_view title = titleIn(scene);
+    const std::string_view title = scene.title; // that of its book, too: it stands alone elsewhere
     const ImVec4 clip(corner.x, corner.y, corner.x + side, corner.y + side + margin + lines);
     list.AddText(ImGui::GetFont(), em, {corner.x, corner.y + side + margin}, ImGui::GetColorU32(ImGuiCol_Text),
                  title.data(), title.data() + title.size(), side, &clip);

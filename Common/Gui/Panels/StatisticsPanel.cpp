@@ -15,7 +15,7 @@ void figure(const char* label, const char* tip, const std::string& text) {
     ImGui::PopTextWrapPos();
 }
 
-std::string joined(const std::vector<std::string>& names) {
+std::string namesOf(const std::vector<std::string>& names) {
     std::string text;
     for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
     return text.empty() ? "none" : text;
@@ -56,9 +56,9 @@ void drawStatisticsPanel(Gui& gui) {
     figure("Device", nullptr, report.device);
     figure("Kernel", "The specialization that runs", report.kernel);
     figure("Lights", "How the shapes of light are sampled", report.lightSampling);
-    figure("Active features", "What the scene needs", joined(app::featureNames(report.features)));
+    figure("Active features", "What the scene needs", namesOf(app::featureNames(report.features)));
     figure("Compiled out", "What it does not need, and no code runs for",
-           joined(app::absentFeatureNames(report.features)));
+           namesOf(app::absentFeatureNames(report.features)));
     figure("NaN or Inf samples", "They count as black", std::to_string(report.nonfiniteSamples));
     std::snprintf(text, sizeof text, "%.2g %%", 100 * report.cutOffShare());
     figure("Cut off by max depth", "Of what paths carry: the picture may be darker by as much", text);

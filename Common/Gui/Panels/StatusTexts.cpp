@@ -101,7 +101,7 @@ StatusParts statusOf(const app::SessionState& state) {
     if (state.renderSeconds > 0)
         parts.rate = withPrefix(static_cast<double>(state.status.samplesDone) / state.renderSeconds) + " samples/s";
     parts.engine = state.report.engine.empty() ? "starting" : state.report.engine;
-    parts.device = state.report.device;
+    parts.device = state.report.device + (state.report.isSoftware ? " (software)" : "");
     return parts;
 }
 

@@ -65,7 +65,9 @@ void drawRenderButtons(Gui& gui, bool isNarrow) {
         }
     }
     beside();
-    if (iconButton("stop", Icon::Stop, "Ends the render; what there is of it stays", rendering || paused))
+    const bool canStop = rendering || paused || !gui.state.stage.empty();
+    if (iconButton("stop", Icon::Stop,
+                   "Ends the render, of which stays what there is, and gives up what is being loaded", canStop))
         gui.session.stop();
     beside();
     if (iconButton("restart", Icon::Restart, "Discards the samples and renders from the beginning (Ctrl+R)",
@@ -149,9 +151,9 @@ void drawToolbar(Gui& gui) {
     drawModes(gui, all - used - 3 * icon - 8 * gap() - right);
     apart();
     if (iconButton("split", Icon::Split,
-                   gui.held ? "Unpins the picture that is compared with (B)"
-                            : "Pins the picture for A/B comparison with the next one (B)",
-                   gui.held || gui.state.picture.image, gui.held != nullptr)) {
+                   gui.pinned ? "Unpins the picture that is compared with (B)"
+                              : "Pins the picture for A/B comparison with the next one (B)",
+                   gui.pinned || gui.state.picture.image, static_cast<bool>(gui.pinned))) {
         gui.hold();
     }
     beside();

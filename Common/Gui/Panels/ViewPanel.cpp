@@ -1,14 +1,10 @@
 #include <string>
 
-#include "Common/Gui/Fonts.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Widgets.h"
 
 namespace rt::gui {
 namespace {
-
-constexpr app::Named<app::ColorMode> kColorModeNames[] = {
-    {"Dark", app::ColorMode::Dark}, {"Light", app::ColorMode::Light}, {"High contrast", app::ColorMode::HighContrast}};
 
 constexpr app::Named<app::Cost> kCostNames[] = {{"Rays", app::Cost::Rays}, {"Time", app::Cost::Time}};
 
@@ -17,17 +13,18 @@ using app::ViewMode;
 // Of what is shown, which the toolbar chooses.
 void drawViewOptions(Gui& gui) {
     app::ViewRequest& view = gui.viewRequest;
-    const Disabled rest(gui.state.picture.isPreview);
+    const Disabled rest(gui.state.picture.isPreview, "the preview is a picture and nothing else");
     {
-        const Disabled none(view.mode != ViewMode::Heat || !gui.state.canShowTime);
+        const Disabled none(view.mode != ViewMode::Heat || !gui.state.canShowTime,
+                            "the heat map is not shown, or this engine knows no times");
         combo("Cost",
               "Of the heat map. Rays: camera, scattered and shadow. Time: by the clock of the processor or the "
               "device's shaders",
               kCostNames, view.cost);
     }
     {
-        const Disabled none(view.mode != ViewMode::Noise && view.mode != ViewMode::Error &&
-                            view.mode != ViewMode::Heat);
+        const Disabled none(view.mode != ViewMode::Noise && view.mode != ViewMode::Error && view.mode != ViewMode::Heat,
+                            "the view has no scale");
         sliderReal("Scale",
                    "Of noise, error and heat map: divides the value of the brightest colour, which the legend "
                    "tells",
@@ -42,9 +39,11 @@ void drawViewOptions(Gui& gui) {
 
 void drawSplit(Gui& gui) {
     const image::Image* shown = gui.state.picture.image.get();
-    if (gui.held && shown != nullptr && (shown->width != gui.held->width || shown->height != gui.held->height))
+    const image::Image* held = gui.pinned.shown().get();
+    if (held != nullptr && shown != nullptr && (shown->width != held->width || shown->height != held->height))
         note("The pinned picture is of another size and cannot be shown beside this one.");
-    const Disabled rest(!gui.held);
+    const Disabled rest(held == nullptr, "no picture is pinned (B)");
+    combo("Compare by", "How the pinned picture A and the picture B are shown (V)", kCompareBys, gui.compareBy);
     row("A/B split", "Share of the pinned picture (B pins it)");
     ImGui::SliderFloat("##split", &gui.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
 }
@@ -64,38 +63,13 @@ void drawViewPanel(Gui& gui) {
     combo("Tone mapping", "How radiance beyond white is shown", app::kTonemaps, settings.tonemap);
     const float space = ImGui::GetStyle().ItemSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - space) / 2;
-    if (button("Fit", "The whole picture (F); Ctrl + wheel zooms, Ctrl + right drag moves it", true, width))
-        gui.view = {};
+    if (button("Fit", "The whole picture (F); the wheel zooms, Ctrl + right drag moves it", true, width)) gui.view = {};
     ImGui::SameLine(0, space);
     const float pixel = 1 / ImGui::GetIO().DisplayFramebufferScale.x; // in the window's units
     if (button("1:1", "One pixel for each of the window", true, width)) gui.view = {pixel, 0, 0};
-    row("Save to", "Folder for F12; empty: your pictures folder, else the home folder");
-    inputText("##folder", "pictures folder", settings.saveFolder);
-    drawErrorOf(gui, app::ErrorSource::Save);
-    if (button("Save PNG and EXR", "F12 or Ctrl+S", true, width)) gui.saveRequested = true;
-    ImGui::SameLine(0, space);
-    if (button("Save as", "Ctrl+Shift+S", true, width)) gui.browse(BrowseFor::Picture);
-    ImGui::Spacing();
-    combo("Theme", "Colours of the interface", kColorModeNames, settings.colorMode);
-
-    row("Interface scale", "Ctrl + plus, Ctrl + minus");
-    static float draft = 0; // while the slider is held: the slider itself would move away from the mouse
-    float shown = draft > 0 ? draft : settings.uiScale;
-    ImGui::SliderFloat("##scale", &shown, app::kMinUiScale, app::kMaxUiScale, "%.2f", ImGuiSliderFlags_AlwaysClamp);
-    if (ImGui::IsItemActive()) {
-        draft = shown;
-    } else if (draft > 0) {
-        settings.uiScale = draft;
-        draft = 0;
-    }
-    row("Font", nullptr);
-    const std::string font = settings.font.empty() ? availableFonts().front().name : settings.font;
-    if (ImGui::BeginCombo("##font", font.c_str())) {
-        for (const FontFile& file : availableFonts()) {
-            if (ImGui::Selectable(file.name.c_str(), file.name == font)) settings.font = file.name;
-        }
-        ImGui::EndCombo();
-    }
+    checkbox("Pixel grid", "Lines between pixels, from 800 % on", gui.showGrid);
+    checkbox("Histogram", "Of the picture's luminance", gui.showHistogram);
+    if (gui.showHistogram) drawHistogram(gui);
 }
 
 } // namespace rt::gui

@@ -57,6 +57,10 @@ class Compiler {
         findSpecularCasters(*out_);
         for (const TargetDesc& target : desc_.importanceTargets) addTarget(target, toWorld);
         finish();
+        if (!bounds_.empty()) {
+            out_->lower = bounds_.lower + out_->origin;
+            out_->upper = bounds_.upper + out_->origin;
+        }
         return out_;
     }
 
