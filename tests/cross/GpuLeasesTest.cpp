@@ -5,12 +5,14 @@
 #include <iterator>
 #include <memory>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "Common/Image/FilmTiles.h"
 #include "Common/Image/SamplePlan.h"
+#include "Common/Render/ForwardingEngine.h"
 #include "Common/Render/RenderParams.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/BoxRender.h"
@@ -133,6 +135,20 @@ TEST_P(GpuLeases, AreForgottenByAReset) {
     rank.engine->renderSome({});
     rank.engine->reset(rank.scene->camera, settings);
     expectSameFilm(whole.finish(), rank.finish());
+}
+
+class Forwarding final : public app::ForwardingEngine {
+  public:
+    explicit Forwarding(std::unique_ptr<app::Engine> engine) { engine_ = std::move(engine); }
+};
+
+TEST_P(GpuLeases, AreHandedOnToTheEngine) {
+    if (lacks(GetParam())) return;
+    const app::RenderSettings settings = leasedImage(5);
+    BoxRender rank = render(settings);
+    Forwarding outer(std::move(rank.engine));
+    outer.resetForLeases(rank.scene->camera, settings);
+    EXPECT_TRUE(outer.film().isPart());
 }
 
 // ---- memory --------------------------------------------------------------------------------------------------------
