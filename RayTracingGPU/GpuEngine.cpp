@@ -58,6 +58,7 @@ class GpuEngine final : public app::Engine {
     }
 
     void reset(const scene::CameraDesc& camera, const app::RenderSettings& settings) override;
+    void resetForLeases(const scene::CameraDesc& camera, const app::RenderSettings& settings) override;
     void restore(Film film) override { setFilm(std::move(film)); }
     void renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed) override;
     app::RenderStatus renderSome(const app::Budget& budget) override;
@@ -73,6 +74,8 @@ class GpuEngine final : public app::Engine {
 
   private:
     std::unique_ptr<Kernel> makeKernel(KernelPurpose purpose) const;
+    void adopt(const scene::CameraDesc& camera, const app::RenderSettings& settings);
+    void makeReady(const scene::CameraDesc& camera);
     void setFilm(Film film);
     void loadTiles();
     void uploadConstants(const scene::CameraDesc& camera);
@@ -109,10 +112,10 @@ class GpuEngine final : public app::Engine {
     std::unique_ptr<Kernel> firstHits_; // once it was asked for
     SpecializationConstants constants_; // that they were compiled for
 
-    Film film_;                          // the whole film, on the host
+    Film film_;                          // on the host: the whole film, or the part of a lease
     image::TileList tiles_;              // of it, that are to be rendered
     std::optional<std::uint32_t> limit_; // samples per pixel that renderOnly() has asked for
-    std::unique_ptr<DeviceFilm> region_; // those on the device: all of them unless they are many
+    std::unique_ptr<DeviceFilm> region_; // those on the device: all of them unless they are many; null before a lease
     bool dirty_ = false;                 // region_ is ahead of film_
     bool failed_ = false;                // the device did: nothing may be read from it any more
     app::Stopwatch sinceRefresh_;
@@ -128,12 +131,30 @@ class GpuEngine final : public app::Engine {
 // ---- set-up --------------------------------------------------------------------------------------------------------
 
 void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings& settings) {
+    adopt(camera, settings);
+    setFilm(Film(app::filmDesc(settings)));
+    makeReady(camera);
+}
+
+// Memory for tiles comes with the leases.
+void GpuEngine::resetForLeases(const scene::CameraDesc& camera, const app::RenderSettings& settings) {
+    adopt(camera, settings);
+    film_ = Film::part(app::filmDesc(settings));
+    tiles_.clear();
+    region_ = nullptr;
+    dirty_ = false;
+    makeReady(camera);
+}
+
+void GpuEngine::adopt(const scene::CameraDesc& camera, const app::RenderSettings& settings) {
     features_ = app::renderFeatures(scene_->compiled(), camera, settings);
     if (shared::has(features_, shared::kFeatureMovingSpheres)) scene_->provideMotion(context_);
     if (settings.maxDepth > settings_.maxDepth) launchSize_.reset();
     settings_ = settings;
     params_ = app::makeRenderParams(scene_->compiled(), settings);
-    setFilm(Film(app::filmDesc(settings)));
+}
+
+void GpuEngine::makeReady(const scene::CameraDesc& camera) {
     uploadConstants(camera);
     if (usesAccelStructure(engine_)) {
         bindings_.update(uniforms_, scene_->topLevel());
@@ -158,9 +179,10 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
         launchSize_.reset();
     }
     if (!launchSize_) {
-        launchSize_.emplace(context_.info().isSoftware(), settings.maxDepth, options_.launchSeconds);
+        launchSize_.emplace(context_.info().isSoftware(), settings_.maxDepth, options_.launchSeconds);
     }
-    launches_.prepare(context_.info().isDiscrete() ? image::pixelCount(film_, tiles_) * settings_.spp : 0);
+    const std::uint64_t samples = std::uint64_t{settings_.width} * settings_.height * settings_.spp;
+    launches_.prepare(context_.info().isDiscrete() ? samples : 0);
     report_.rays = {};
     report_.nonfiniteSamples = 0;
     report_.cutOff = 0;
@@ -197,7 +219,13 @@ void GpuEngine::setFilm(Film film) {
 }
 
 void GpuEngine::renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed) {
-    if (dirty_) refresh();
+    if (film_.isPart()) {
+        dirty_ = false; // what it had is forgotten
+        film_.hold(tiles);
+    } else {
+        if (dirty_) refresh();
+        if (tiles.size() < tiles_.size()) region_ = nullptr; // it has room for the others
+    }
     image::unpackTiles(packed, film_);
     tiles_ = std::move(tiles);
     limit_ = spp;

@@ -16,6 +16,9 @@ class ForwardingEngine : public Engine {
     void reset(const scene::CameraDesc& camera, const RenderSettings& settings) override {
         engine_->reset(camera, settings);
     }
+    void resetForLeases(const scene::CameraDesc& camera, const RenderSettings& settings) override {
+        engine_->resetForLeases(camera, settings);
+    }
     void restore(image::Film film) override { engine_->restore(std::move(film)); }
     void renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed) override {
         engine_->renderOnly(std::move(tiles), spp, packed);

@@ -257,6 +257,21 @@ TEST_F(Ranks, MakeTheBitsOfOneProcessOnGpus) {
     EXPECT_TRUE(bytesOf("merged.pfm") == bytesOf("one.pfm"));
 }
 
+// A lease is a quarter of the image at most. What else is on the device is far less than a film of the whole image.
+TEST_F(Ranks, ReserveTheFilmOfALeaseOnGpus) {
+    constexpr std::uint64_t kSide = 1024, kReplicates = 3;
+    const std::uint64_t sums = 24, openBlock = 12; // bytes of a pixel and replicate
+    const std::string side = std::to_string(kSide), replicates = std::to_string(kReplicates);
+    const Outcome outcome =
+        mpirun(2,
+               {"--headless", "--engine", "compute", "--scene", "furnace", "--max-depth", "1", "--width", side,
+                "--height", side, "--replicates", replicates, "--spp", replicates, "--stats", "s.json"},
+               "ray-tracing-gpu");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_LT(jsonOf("s.json")["memory"]["device_bytes"].get<std::uint64_t>(),
+              kSide * kSide * kReplicates * (sums + openBlock));
+}
+
 #endif
 
 } // namespace
