@@ -77,6 +77,27 @@ TEST_P(Materials, AreSampledAsTheirDensitySays) {
     }
 }
 
+// What is white reflects at most what it receives.
+TEST_P(Materials, MakeNoLight) {
+    const vec3 n(0, 0, 1);
+    test::Uniforms uniform(22);
+    for (const double share : {0.0, 0.25, 0.5, 1.0}) {
+        shared::Bsdf m = bsdf(share);
+        m.albedo = vec3(1);
+        if (type_.kind == MaterialKind::Principled) continue; // PrincipledEnergyTest.cpp
+        for (const double cosine : {0.95, 0.3}) {
+            test::Mean reflected;
+            for (int i = 0; i < 1 << 12; ++i) {
+                const shared::vec2 u = uniform.pair();
+                const float lobe = uniform.pair().x;
+                const vec3 wo(test::onSphere(0.5 * (cosine + 1), 0.1));
+                reflected.add(sampleBsdf(shared::kFeatureAll, m, n, 1, wo, u, lobe).weight.x);
+            }
+            EXPECT_TRUE(reflected.mean() <= 1 || test::agrees(reflected, 1, 1e-4)) << share << ", " << cosine;
+        }
+    }
+}
+
 // ---- scene files ---------------------------------------------------------------------------------------------------
 
 TEST_P(Materials, SurviveASceneFile) {
