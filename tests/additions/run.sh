@@ -44,8 +44,7 @@ prepare() {
         revert
         git -C "$tree" checkout --quiet --detach "$(git rev-parse HEAD)"
     else
-        git worktree prune
-        git worktree add --quiet --detach "$tree" HEAD
+        git worktree add --quiet --force --detach "$tree" HEAD
     fi
 }
 

@@ -10,7 +10,7 @@
 // How it scatters is what techniques and the preview go by, which know no material by its name:
 //     kScattersEvenly     the same radiance into all directions, albedo / pi: pixels may share paths there, too
 //     kScattersDiffusely  into all directions: lights are also connected to from there by way of smooth spheres
-//     kScattersInLayers   likewise by one lobe, and about the mirrored direction by another: the preview shows the sky in it
+//     kScattersInLayers   likewise by one lobe, about the mirrored direction by others, where the preview shows the sky
 //     kScattersGlossily   about the mirrored or the refracted direction only: connections would meet it by chance
 //
 // Parameters, see Common/Scene/MaterialTypes.h: at most one color(name, need, help), a constant or a texture, which is
