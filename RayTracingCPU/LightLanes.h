@@ -172,7 +172,7 @@ RT_CALL void sampleSpheres(PathLanes& lanes) {
 
 // ---- weighing it ---------------------------------------------------------------------------------------------------
 
-constexpr Features kOtherSurfaces = kFeatureLambertian | kFeatureMetal | kFeatureDielectric;
+constexpr Features kOtherSurfaces = kSurfaceFeatures & ~kFeaturePrincipled;
 
 // kOthers: lobes of principled materials that are not left out.
 template <Features kFeatures, uint kOthers>

@@ -21,7 +21,7 @@ float sphereDistance(SceneRef scene, Ray ray) {
     return intersectSphere(local, sphere.center, sphere.radius, kInfinity);
 }
 
-// Diffuse surfaces as they are; metal and glass half as if they were, half as a mirror of the sky.
+// What scatters diffusely as it is; all else half as if it did, half as a mirror of the sky.
 vec3 surfaceRadiance(SceneRef scene, Surface surface, vec3 wo) {
     Material material = loadMaterial(scene, surface.material);
     bool isFront = dot(wo, surface.normal) > 0.0f;
@@ -33,7 +33,7 @@ vec3 surfaceRadiance(SceneRef scene, Surface surface, vec3 wo) {
     if (material.kind == kMaterialEmitter) return radiance;
     vec3 albedo = surfaceAlbedo(kFeatures, scene, material, surface);
     vec3 incident = incidentLight(scene, surface.position, normal, wo);
-    if (material.kind != kMaterialLambertian) {
+    if (!scattersDiffusely(kFeatures, makeBsdf(material, albedo))) {
         incident = 0.5f * (incident + skyRadiance(kFeatures, scene, reflect(-wo, normal)));
     }
     return radiance + albedo * incident;

@@ -78,7 +78,7 @@ bool mayReusePaths(const scene::CompiledScene& scene, const RenderSettings& sett
     constexpr shared::Features kPrevents =
         shared::kFeatureVolumes | shared::kFeatureMovingSpheres | shared::kFeatureOpacity;
     return settings.lightSampling != LightSampling::Mixture &&
-           shared::has(scene.features, shared::kFeatureLambertian) && !shared::has(scene.features, kPrevents);
+           shared::has(scene.features, shared::kEvenSurfaceFeatures) && !shared::has(scene.features, kPrevents);
 }
 
 // Whether that gains more than it costs, by error times time (docs/measurements/light-sampling.md): where indirect light makes the

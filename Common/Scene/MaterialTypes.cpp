@@ -36,13 +36,13 @@ constexpr bool fitsRecord(std::span<const MaterialParameter> parameters) {
 #define RT_PARAMETERS(Name, parameters)                     \
     constexpr auto kParametersOf##Name = listOf parameters; \
     static_assert(fitsRecord(kParametersOf##Name), "shared::Material has no room for the parameters of " #Name);
-#define RT_SURFACE(Name, kind, name, help, parameters) RT_PARAMETERS(Name, parameters)
+#define RT_SURFACE(Name, kind, name, help, scatters, parameters) RT_PARAMETERS(Name, parameters)
 #define RT_BLACK(Name, kind, name, help, parameters) RT_PARAMETERS(Name, parameters)
 RT_MATERIALS(RT_SURFACE, RT_BLACK)
 #undef RT_SURFACE
 #undef RT_BLACK
 
-#define RT_SURFACE(Name, kind, name, help, parameters) \
+#define RT_SURFACE(Name, kind, name, help, scatters, parameters) \
     {MaterialKind::Name, name, help, true, shared::kFeature##Name, kParametersOf##Name},
 #define RT_BLACK(Name, kind, name, help, parameters) \
     {MaterialKind::Name, name, help, false, shared::kFeatureNone, kParametersOf##Name},

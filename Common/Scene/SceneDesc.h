@@ -101,7 +101,7 @@ using TextureDesc = std::variant<SolidTexture, CheckerTexture, NoiseTexture, Ima
 
 // Of the table Common/Shared/Material/Materials.h.
 enum class MaterialKind : std::uint32_t {
-#define RT_SURFACE(Name, kind, name, help, parameters) Name = kind,
+#define RT_SURFACE(Name, kind, name, help, scatters, parameters) Name = kind,
 #define RT_BLACK(Name, kind, name, help, parameters) Name = kind,
     RT_MATERIALS(RT_SURFACE, RT_BLACK)
 #undef RT_SURFACE

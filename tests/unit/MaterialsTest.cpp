@@ -77,6 +77,46 @@ TEST_P(Materials, AreSampledAsTheirDensitySays) {
     }
 }
 
+// Pixels share paths by that formula where the row says so.
+TEST_P(Materials, ScatterEvenlyWhereTheirRowSaysSo) {
+    const vec3 n(0, 0, 1);
+    test::Uniforms uniform(23);
+    for (const double share : {0.0, 0.5, 1.0}) {
+        const shared::Bsdf m = bsdf(share);
+        if (!shared::scattersEvenly(shared::kFeatureAll, m)) continue;
+        EXPECT_TRUE(shared::scattersDiffusely(shared::kFeatureAll, m) &&
+                    shared::hasDiffuseLobe(shared::kFeatureAll, m));
+        for (int i = 0; i < 1000; ++i) {
+            const shared::vec2 u = uniform.pair(), v = uniform.pair();
+            const vec3 wo(test::onSphere(0.5 * (1 + u.x), u.y)), wi(test::onSphere(0.5 * (1 + v.x), v.y));
+            const vec3 expected = m.albedo * (wi.z * shared::kInvPi);
+            const shared::vec4 f = evalBsdf(shared::kFeatureAll, m, n, wo, wi);
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(f[c], expected[c], 1e-5f * expected[c]);
+        }
+    }
+}
+
+// What is white reflects at most what it receives.
+TEST_P(Materials, MakeNoLight) {
+    const vec3 n(0, 0, 1);
+    test::Uniforms uniform(22);
+    for (const double share : {0.0, 0.25, 0.5, 1.0}) {
+        shared::Bsdf m = bsdf(share);
+        m.albedo = vec3(1);
+        if (type_.kind == MaterialKind::Principled) continue; // PrincipledEnergyTest.cpp
+        for (const double cosine : {0.95, 0.3}) {
+            test::Mean reflected;
+            for (int i = 0; i < 1 << 12; ++i) {
+                const shared::vec2 u = uniform.pair();
+                const float lobe = uniform.pair().x;
+                const vec3 wo(test::onSphere(0.5 * (cosine + 1), 0.1));
+                reflected.add(sampleBsdf(shared::kFeatureAll, m, n, 1, wo, u, lobe).weight.x);
+            }
+            EXPECT_TRUE(reflected.mean() <= 1 || test::agrees(reflected, 1, 1e-4)) << share << ", " << cosine;
+        }
+    }
+}
+
 // ---- scene files ---------------------------------------------------------------------------------------------------
 
 TEST_P(Materials, SurviveASceneFile) {

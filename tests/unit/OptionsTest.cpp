@@ -201,7 +201,7 @@ TEST_F(OptionsTest, ErrorsNameFlagValueAndWhatIsAllowed) {
     EXPECT_EQ(error({"--sampler", "halton"}), "--sampler halton: must be sobol, sobol-blue, stratified or independent");
     EXPECT_EQ(error({"--russian-roulette", "yes"}), "--russian-roulette yes: must be on or off");
     EXPECT_EQ(error({"--aov", "albedo,colour", "-o", "a.png"}),
-              "--aov colour: must be albedo, normal, depth, variance or samples");
+              "--aov colour: must be albedo, normal, depth, variance, samples, denoised or denoised-error");
     EXPECT_EQ(error({"--aov", "albedo,", "-o", "a.png"}), "--aov albedo,: must be a list like a,b,c");
     EXPECT_EQ(error({"-o", ""}), "--output '': must be the name of a file");
     EXPECT_EQ(error({"--frames", "3"}), "--frames: unknown flag; --help lists them all");

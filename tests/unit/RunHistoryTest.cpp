@@ -3,8 +3,10 @@
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "Common/App/Interactive/RunHistory.h"
+#include "Common/Render/Names.h"
 #include "tests/TempFolder.h"
 
 namespace rt::app {
@@ -161,6 +163,15 @@ TEST_F(RunHistoryTest, OldRecordsLoadAndSayWhatTheyLack) {
     EXPECT_EQ(old.pathReuse, "off");
     EXPECT_FALSE(isSameWork(old, old)); // what is not known is not equal
     EXPECT_EQ(lackingIn(record("a")), "");
+}
+
+// Work that differs in a method is not the same work, whoever adds one.
+TEST_F(RunHistoryTest, RecordsTellEveryMethod) {
+    const nlohmann::json line = nlohmann::json::parse(toJsonLine(record("a")));
+    RenderSettings settings;
+    forEachMethod([&line](const char* key, const char*, const char*, const auto&,
+                          const auto&) { EXPECT_TRUE(line.contains(key)) << key; },
+                  settings);
 }
 
 TEST_F(RunHistoryTest, OnlyEqualWorkIsTheSame) {

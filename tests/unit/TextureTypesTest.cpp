@@ -2,11 +2,14 @@
 // parameters and with none but those that it needs, and the published schema describes it.
 #include <filesystem>
 #include <fstream>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
+#include "Common/Scene/Compiler/SceneCompiler.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "Common/Scene/Json/TextureTypes.h"
+#include "Common/Shared/Base/Features.h"
 #include "tests/unit/SceneParameters.h"
 
 namespace rt::scene {
@@ -39,6 +42,22 @@ TEST(TextureTypes, SurviveASceneFile) {
     forEachTextureType([]<typename Texture>(const Texture&) {
         SCOPED_TRACE(TextureType<Texture>::name);
         for (const bool onlyRequired : {false, true}) expectRoundTrip<Texture>(onlyRequired);
+    });
+}
+
+// Kernels look no texture up where the scene has none of these features.
+TEST(TextureTypes, HaveAFeature) {
+    const Json file = {{"version", 1},
+                       {"textures", {{"it", {{"type", "solid"}, {"color", {1, 0, 0}}}}}},
+                       {"materials", {{"m", {{"type", "lambertian"}, {"albedo", "it"}}}}},
+                       {"objects", {{{"type", "sphere"}, {"center", {0, 0, 0}}, {"radius", 1}, {"material", "m"}}}}};
+    SceneDesc scene = parseScene(file.dump(), "test.json", {});
+    forEachTextureType([&]<typename Texture>(const Texture& usual) {
+        // The first becomes a constant, the second reads a file.
+        if (std::is_same_v<Texture, SolidTexture> || std::is_same_v<Texture, ImageTexture>) return;
+        scene.textures["it"] = usual;
+        EXPECT_TRUE(shared::has(compileScene(scene)->features, shared::kTexturedFeatures))
+            << TextureType<Texture>::name;
     });
 }
 

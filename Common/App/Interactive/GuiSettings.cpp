@@ -100,6 +100,20 @@ Json toJson(const RenderRequest& request) {
     return json;
 }
 
+// What is on or off in a window, its key in the file.
+template <typename Visit, typename Settings>
+void forEachToggle(const Visit& visit, Settings& settings) {
+    visit("window_placed", settings.windowPlaced);
+    visit("window_maximised", settings.windowMaximised);
+    visit("show_panels", settings.showPanels);
+    visit("show_comparison", settings.showComparison);
+    visit("show_statistics", settings.showStatistics);
+    visit("auto_exposure", settings.autoExposure);
+    visit("reload_scenes", settings.reloadScenes);
+    visit("saw_first_steps", settings.sawFirstSteps);
+    visit("ray_tracing", settings.rayTracing);
+}
+
 } // namespace
 
 void GuiSettings::addRecent(const std::string& file) {
@@ -118,27 +132,19 @@ GuiSettings parseGuiSettings(std::string_view text) {
     reader.read("color_mode", kColorModes, settings.colorMode);
     reader.read("ui_scale", settings.uiScale, kMinUiScale, kMaxUiScale);
     reader.read("font", settings.font);
+    forEachToggle([&reader](const char* key, bool& value) { reader.read(key, value); }, settings);
     constexpr double kFar = 100'000;
     reader.read("window_x", settings.windowX, -kFar, kFar);
     reader.read("window_y", settings.windowY, -kFar, kFar);
     reader.read("window_width", settings.windowWidth, 1, image::kMaxImageSide);
     reader.read("window_height", settings.windowHeight, 1, image::kMaxImageSide);
-    reader.read("window_placed", settings.windowPlaced);
-    reader.read("window_maximised", settings.windowMaximised);
-    reader.read("show_panels", settings.showPanels);
-    reader.read("show_comparison", settings.showComparison);
-    reader.read("show_statistics", settings.showStatistics);
     if (const auto* panels = reader.find("open_panels"); panels != nullptr && panels->is_object()) {
         for (const auto& [id, isOpen] : panels->items())
             if (isOpen.is_boolean()) settings.openPanels[id] = isOpen;
     }
     reader.read("exposure", settings.exposure, -100, 100);
-    reader.read("auto_exposure", settings.autoExposure);
     reader.read("tonemap", kTonemaps, settings.tonemap);
-    reader.read("reload_scenes", settings.reloadScenes);
-    reader.read("saw_first_steps", settings.sawFirstSteps);
     reader.read("save_folder", settings.saveFolder);
-    reader.read("ray_tracing", settings.rayTracing);
     reader.read("scene", settings.scene);
     if (settings.scene.empty()) settings.scene = GuiSettings().scene;
     if (const auto* recent = reader.find("recent"); recent != nullptr && recent->is_array()) {
@@ -157,35 +163,27 @@ GuiSettings parseGuiSettings(std::string_view text) {
 }
 
 std::string toText(const GuiSettings& s) {
-    const Json json{{"version", kSettingsVersion},
-                    {"color_mode", nameOf(kColorModes, s.colorMode)},
-                    {"ui_scale", s.uiScale},
-                    {"font", s.font},
-                    {"window_x", s.windowX},
-                    {"window_y", s.windowY},
-                    {"window_width", s.windowWidth},
-                    {"window_height", s.windowHeight},
-                    {"window_placed", s.windowPlaced},
-                    {"window_maximised", s.windowMaximised},
-                    {"show_panels", s.showPanels},
-                    {"show_comparison", s.showComparison},
-                    {"show_statistics", s.showStatistics},
-                    {"open_panels", s.openPanels},
-                    {"exposure", s.exposure},
-                    {"auto_exposure", s.autoExposure},
-                    {"tonemap", nameOf(kTonemaps, s.tonemap)},
-                    {"reload_scenes", s.reloadScenes},
-                    {"saw_first_steps", s.sawFirstSteps},
-                    {"save_folder", s.saveFolder},
-                    {"ray_tracing", s.rayTracing},
-                    {"scene", s.scene},
-                    {"recent", s.recent},
-                    {"render", toJson(s.request)},
-                    {"engine",
-                     {{"kind", nameOf(kGpuEngines, s.engine.kind)},
-                      {"device", s.engine.device},
-                      {"policy", nameOf(kPolicies, s.engine.policy)},
-                      {"threads", s.engine.threads}}}};
+    Json json{{"version", kSettingsVersion},
+              {"color_mode", nameOf(kColorModes, s.colorMode)},
+              {"ui_scale", s.uiScale},
+              {"font", s.font},
+              {"window_x", s.windowX},
+              {"window_y", s.windowY},
+              {"window_width", s.windowWidth},
+              {"window_height", s.windowHeight},
+              {"open_panels", s.openPanels},
+              {"exposure", s.exposure},
+              {"tonemap", nameOf(kTonemaps, s.tonemap)},
+              {"save_folder", s.saveFolder},
+              {"scene", s.scene},
+              {"recent", s.recent},
+              {"render", toJson(s.request)},
+              {"engine",
+               {{"kind", nameOf(kGpuEngines, s.engine.kind)},
+                {"device", s.engine.device},
+                {"policy", nameOf(kPolicies, s.engine.policy)},
+                {"threads", s.engine.threads}}}};
+    forEachToggle([&json](const char* key, bool value) { json[key] = value; }, s);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

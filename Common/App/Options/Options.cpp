@@ -35,34 +35,11 @@ constexpr std::uint32_t kDefaultWidth = 600;
 constexpr const char* kNoValue = ""; // of a flag that may have one
 constexpr double kMaxAspect = image::kMaxImageSide;
 
-// Flags that a window keeps in its settings.
-constexpr const char* kStoredFlags[] = {"--scene",
-                                        "--width",
-                                        "--height",
-                                        "--aspect",
-                                        "--spp",
-                                        "--max-depth",
-                                        "--seed",
-                                        "--replicates",
-                                        "--light-sampling",
-                                        "--light-selection",
-                                        "--sampler",
-                                        "--adaptive",
-                                        "--sphere-light",
-                                        "--quad-light",
-                                        "--triangle-light",
-                                        "--specular-connections",
-                                        "--edge-rays",
-                                        "--path-reuse",
-                                        "--one-sided-lights",
-                                        "--russian-roulette",
-                                        "--time-limit",
-                                        "--target-error",
-                                        "--exposure",
-                                        "--tonemap",
-                                        "--threads",
-                                        "--policy",
-                                        "--engine"};
+// Flags that a window keeps in its settings, beside those of forEachMethod().
+constexpr const char* kStoredFlags[] = {
+    "--scene",    "--width",      "--height",           "--aspect",           "--spp",        "--max-depth",
+    "--seed",     "--replicates", "--one-sided-lights", "--russian-roulette", "--time-limit", "--target-error",
+    "--exposure", "--tonemap",    "--threads",          "--policy",           "--engine"};
 
 // ---- the flags -----------------------------------------------------------------------------------------------------
 
@@ -377,8 +354,12 @@ std::optional<Options> OptionParser::parse(std::vector<std::string> arguments, s
     settleFiles(parsed.options);
     settlePolicy(flags, parsed);
     settleValidation(parsed);
-    for (const char* flag : kStoredFlags)
+    const auto note = [&](const std::string& flag) {
         if (flags.given(flag)) parsed.options.given.insert(flag);
+    };
+    for (const char* flag : kStoredFlags) note(flag);
+    forEachMethod([&note](const char* key, const char*, const char*, const auto&, const auto&) { note(flagOf(key)); },
+                  parsed.options.settings);
     return parsed.options;
 }
 

@@ -12,7 +12,7 @@ using namespace rt::shared;
 constexpr Named<Features> kNames[] = {
 #define RT_FEATURE(Name, bit, name) {name, kFeature##Name},
 #define RT_METHOD(Name, bit, name) {name, kMethod##Name},
-#define RT_SURFACE(Name, kind, name, help, parameters) {name, kFeature##Name},
+#define RT_SURFACE(Name, kind, name, help, scatters, parameters) {name, kFeature##Name},
 #define RT_BLACK(Name, kind, name, help, parameters)
     {"textures", kTexturedFeatures},
     RT_SCENE_FEATURES(RT_FEATURE)      //

@@ -3,23 +3,15 @@
 namespace rt::gui {
 namespace {
 
-bool atTheSide(const app::GuiSettings& settings) {
-    return settings.showPanels;
-}
-
-constexpr PanelRow kPanels[] = {
-    {"scene", "Scene", Panel::Place::Side, true, atTheSide, drawScenePanel},
-    {"rendering", "Rendering", Panel::Place::Side, true, atTheSide, drawRenderPanel},
-    {"camera", "Camera", Panel::Place::Side, false, atTheSide, drawCameraPanel},
-    {"view", "View", Panel::Place::Side, false, atTheSide, drawViewPanel},
-    {"file", "File", Panel::Place::Side, false, atTheSide, drawFilePanel},
-    {"statistics", "Statistics", Panel::Place::Side, false,
-     [](const app::GuiSettings& settings) { return settings.showPanels && settings.showStatistics; },
-     drawStatisticsPanel},
-    {"settings", "Settings", Panel::Place::Side, false, atTheSide, drawSettingsPanel},
-    {"comparison", "Comparison", Panel::Place::Bottom, true,
-     [](const app::GuiSettings& settings) { return settings.showComparison; }, drawComparisonPanel},
-};
+#define RT_ROW(Name, id, title, place, opensAtFirst, isShown)          \
+    {id,                                                               \
+     title,                                                            \
+     Panel::Place::place,                                              \
+     opensAtFirst,                                                     \
+     [](const app::GuiSettings& settings) -> bool { return isShown; }, \
+     draw##Name##Panel},
+constexpr PanelRow kPanels[] = {RT_PANELS(RT_ROW)};
+#undef RT_ROW
 
 } // namespace
 

@@ -8,7 +8,20 @@
 
 namespace rt::gui {
 
-// A panel is a file with its draw function and a row of this table, from the top of the window down.
+// A panel is a file with its draw function, draw<Name>Panel, and a row of this table, from the top of the window down:
+// PANEL(Name, id, title, place, whether it opens at first, whether it is shown with these settings).
+// clang-format off
+#define RT_PANELS(PANEL) \
+    PANEL(Scene, "scene", "Scene", Side, true, settings.showPanels) \
+    PANEL(Render, "rendering", "Rendering", Side, true, settings.showPanels) \
+    PANEL(Camera, "camera", "Camera", Side, false, settings.showPanels) \
+    PANEL(View, "view", "View", Side, false, settings.showPanels) \
+    PANEL(File, "file", "File", Side, false, settings.showPanels) \
+    PANEL(Statistics, "statistics", "Statistics", Side, false, settings.showPanels && settings.showStatistics) \
+    PANEL(Settings, "settings", "Settings", Side, false, settings.showPanels) \
+    PANEL(Comparison, "comparison", "Comparison", Bottom, true, settings.showComparison)
+// clang-format on
+
 struct PanelRow {
     const char* id; // in the settings' list of open panels
     const char* title;
@@ -19,14 +32,9 @@ struct PanelRow {
 };
 std::span<const PanelRow> panelTable();
 
-void drawScenePanel(Gui& gui);
-void drawRenderPanel(Gui& gui);
-void drawCameraPanel(Gui& gui);
-void drawViewPanel(Gui& gui);
-void drawFilePanel(Gui& gui);
-void drawStatisticsPanel(Gui& gui);
-void drawSettingsPanel(Gui& gui);
-void drawComparisonPanel(Gui& gui);
+#define RT_DECLARE(Name, id, title, place, opensAtFirst, isShown) void draw##Name##Panel(Gui& gui);
+RT_PANELS(RT_DECLARE)
+#undef RT_DECLARE
 
 // ---- what is no panel ----------------------------------------------------------------------------------------------
 

@@ -1,5 +1,7 @@
 #include "Common/Scene/Compiler/FeatureMask.h"
 
+#include <stdexcept>
+
 #include "Common/Scene/MaterialTypes.h"
 #include "Common/Shared/Material/PrincipledSurface.h"
 
@@ -35,8 +37,12 @@ Features ofTexture(const shared::Texture& texture) {
             return shared::kFeatureChecker;
         case shared::kTextureImage:
             return shared::kFeatureImages;
-        default:
+        case shared::kTextureMarble:
+        case shared::kTextureTurbulence:
+        case shared::kTextureNoise:
             return shared::kFeatureNoise;
+        default:
+            throw std::logic_error("a kind of texture without a feature");
     }
 }
 

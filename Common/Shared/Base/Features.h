@@ -9,11 +9,17 @@
 #include "Common/Shared/Base/Shim.h"
 
 // clang-format off
-// What the scene is made of.
+// The kinds of texture that are looked up at a point.
+//   Noise  Perlin textures of every kind
+#define RT_TEXTURE_FEATURES(FEATURE)  \
+    FEATURE(Checker, 8u, "checker")   \
+    FEATURE(Noise, 9u, "noise")       \
+    FEATURE(Images, 10u, "images")
+
+// What the scene is made of, with its textures.
 //   MovingSpheres     then the time of a ray matters
 //   VertexAttributes  tangents, colours, second texture coordinates
 //   Emissive          some surface emits
-//   Noise             Perlin textures of every kind
 //   Volumes           constant media
 //   Sky               a background that is not black
 //   Lights            the light table is not empty
@@ -28,9 +34,7 @@
     FEATURE(SmoothNormals, 5u, "smooth-normals")      \
     FEATURE(VertexAttributes, 6u, "vertex-attributes") \
     FEATURE(Emissive, 7u, "emissive")                 \
-    FEATURE(Checker, 8u, "checker")                   \
-    FEATURE(Noise, 9u, "noise")                       \
-    FEATURE(Images, 10u, "images")                    \
+    RT_TEXTURE_FEATURES(FEATURE)                      \
     FEATURE(Volumes, 11u, "volumes")                  \
     FEATURE(Sky, 12u, "sky")                          \
     FEATURE(SkyImage, 13u, "sky-image")               \
@@ -84,7 +88,9 @@ RT_METHODS(RT_METHOD)
 #undef RT_MATERIAL_FEATURE
 #undef RT_METHOD
 
-RT_CONST Features kTexturedFeatures = kFeatureChecker | kFeatureNoise | kFeatureImages;
+#define RT_OR_FEATURE(Name, bit, name) | kFeature##Name
+RT_CONST Features kTexturedFeatures = kFeatureNone RT_TEXTURE_FEATURES(RT_OR_FEATURE);
+#undef RT_OR_FEATURE
 
 RT_FN bool has(Features features, Features bits) {
     return (features & bits) != kFeatureNone;

@@ -31,7 +31,7 @@ RT_FN bool reusesPaths(Features features, RT_IN(RenderParams) params) {
 RT_FN void followReuse(Features features, RT_IN(Surface) surface, RT_IN(Vertex) v, RT_INOUT(PathState) s,
                        RT_INOUT(vec3) prefix) {
     // Where normals are interpolated, how v scatters depends on where it is seen from.
-    bool isPlain = isLambertian(features, v.bsdf) && surface.shading == surface.normal;
+    bool isPlain = scattersEvenly(features, v.bsdf) && surface.shading == surface.normal;
     if (s.reuse == kReuseBefore) {
         bool scatters = maxComponent(s.throughput * v.bsdf.albedo) > 0.0f;
         if (!isDelta(features, v.bsdf)) s.reuse = isPlain && scatters ? kReuseFirst : kReuseNone;

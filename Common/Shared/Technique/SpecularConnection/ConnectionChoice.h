@@ -68,9 +68,9 @@ RT_FN float totalWeight(SceneRef scene, RT_IN(RenderParams) params, vec3 x, floa
     return sum;
 }
 
-// Connections leave from diffuse surfaces, rough ones and media.
+// Connections leave from media and from surfaces that scatter into all directions, by one of their lobes at least.
 RT_FN bool connects(Features features, RT_IN(Vertex) v) {
-    return v.inMedium != 0u || isLambertian(features, v.bsdf) || isPrincipled(features, v.bsdf);
+    return v.inMedium != 0u || hasDiffuseLobe(features, v.bsdf);
 }
 
 // Whether a path may be long enough for a connection from v: where it enters, is reflected and leaves, and the light.
