@@ -18,7 +18,7 @@ TEST_F(InteractiveFilesTest, SavesWhatItShows) {
     ASSERT_TRUE(reaches(session, isFinished));
     const std::string exr = (folder_ / "a.exr").string();
     session.save({.files = {(folder_ / "a.png").string(), exr}});
-    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.messageSerial == 2; }));
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.messageSerial == 1; }));
     EXPECT_EQ(image::readImage(exr).data, session.state().picture.image->data);
     EXPECT_TRUE(std::filesystem::exists(folder_ / "a.png"));
     session.save({.files = {(folder_ / "no/such/folder/a.png").string()}});

@@ -243,7 +243,7 @@ TEST_F(InteractiveSessionTest, AChangedFileGivesWayToWhatIsBeingOpened) {
     session.open(other);
     EXPECT_FALSE(session.reopen("cornell-box-lights"));
     ASSERT_TRUE(reaches(session, [&](const SessionState& s) { return s.source == other && isFinished(s); }));
-    EXPECT_TRUE(session.reopen(other));
+    EXPECT_TRUE(session.reopen(other)) << session.state().stage;
     EXPECT_TRUE(reaches(session, [&](const SessionState& s) { return s.sceneLoads == 3 && isFinished(s); }));
 }
 
