@@ -242,8 +242,8 @@ TEST_F(InteractiveSessionTest, AChangedFileGivesWayToWhatIsBeingOpened) {
     const std::string other = "white-spheres:200000"; // takes a while
     session.open(other);
     EXPECT_FALSE(session.reopen("cornell-box-lights"));
-    ASSERT_TRUE(reaches(
-        session, [&](const SessionState& s) { return s.source == other && isFinished(s) && s.stage.empty(); }));
+    ASSERT_TRUE(
+        reaches(session, [&](const SessionState& s) { return s.source == other && isFinished(s) && s.stage.empty(); }));
     EXPECT_TRUE(session.reopen(other)) << session.state().stage;
     EXPECT_TRUE(reaches(session, [&](const SessionState& s) { return s.sceneLoads == 3 && isFinished(s); }));
 }
