@@ -241,7 +241,7 @@ TEST_P(SharedPanelsTest, TheToolbarDoesWhatItShows) {
     click(265, 16); // Picture
     EXPECT_TRUE(eventually([&] { return line() == radiance; }));
     click(1229, 16); // Help
-    EXPECT_TRUE(eventually([&] { return screenshot().at(700, 215) != kWindowColor && line() != radiance; }));
+    EXPECT_TRUE(eventually([&] { return screenshot().at(700, 201) != kWindowColor && line() != radiance; }));
     EXPECT_TRUE(eventually([&] { return screenshot().at(960, 620) == kWindowColor; })); // the second column
     click(1229, 16);
     EXPECT_TRUE(eventually([&] { return line() == radiance; }));

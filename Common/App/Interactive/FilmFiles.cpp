@@ -43,7 +43,7 @@ std::vector<std::string> writeFilm(const SaveRequest& request, Options options, 
     }
     if (!lost.empty()) outputs.failures.insert(outputs.failures.begin(), lost);
     std::string saved;
-    for (const std::string& file : outputs.written) saved += (saved.empty() ? "Saved " : "\n") + file;
+    for (const std::string& file : outputs.written) saved += (saved.empty() ? "Saved " : ", ") + file;
     if (!saved.empty()) state.say(saved); // all of them at once: what is said is seen until something else is
     return outputs.failures;
 }
@@ -57,7 +57,7 @@ void writePreview(const SaveRequest& request, const Preview& preview, PublishedS
             const image::ImageRows picture = preview.picture;
             image::writeImage(
                 file, image::isDisplayReferred(file) ? image::toDisplay(picture, request.exposure, curve) : picture);
-            saved += (saved.empty() ? "Saved the preview as " : "\n") + file;
+            saved += (saved.empty() ? "Saved the preview as " : ", ") + file;
         } catch (...) {
             state.fail(std::current_exception(), ErrorSource::Save);
         }
