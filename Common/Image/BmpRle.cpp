@@ -85,10 +85,14 @@ class BmpDecoder {
         return std::to_integer<std::uint32_t>(bytes_[at_++]);
     }
 
-    // Pixels beyond a row or the picture are an error.
+    // Some programs fill rows to a multiple of four bytes, as they are where they are not compressed. Pixels beyond that,
+    // or beyond the picture, are an error.
     void put(std::uint32_t index) {
-        if (x_ >= width_ || y_ >= height_) fail("damaged BMP file: a run does not fit its row");
-        indices_[std::size_t{height_ - 1 - y_} * width_ + x_++] = static_cast<std::uint8_t>(index);
+        const std::uint32_t perWord = halves_ ? 8 : 4;
+        const std::uint32_t filled = (width_ + perWord - 1) / perWord * perWord;
+        if (x_ >= filled || y_ >= height_) fail("damaged BMP file: a run does not fit its row");
+        if (x_ < width_) indices_[std::size_t{height_ - 1 - y_} * width_ + x_] = static_cast<std::uint8_t>(index);
+        ++x_;
     }
     void putHalf(std::uint32_t byte, std::uint32_t i) { put(i % 2 == 0 ? byte >> 4 : byte & 15u); }
 

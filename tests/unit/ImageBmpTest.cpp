@@ -133,6 +133,13 @@ TEST(ImageBmp, WhatIsLeftOutHasTheFirstColour) {
     EXPECT_EQ(indices, (std::vector<std::uint8_t>{0, 0, 0, 6, 5, 0, 0, 0}));
 }
 
+TEST(ImageBmp, RunsMayFillARowToFourBytes) {
+    const Texels plain = decodedBmp(bmpFile(3, 2, 8, kRle8, std::string("\3\5\0\0\3\6\0\1", 8)));
+    const Texels filled = decodedBmp(bmpFile(3, 2, 8, kRle8, std::string("\4\5\0\0\3\6\1\7\0\1", 10)));
+    EXPECT_EQ(filled.srgb8, plain.srgb8);
+    EXPECT_NE(bmpErrorOf(bmpFile(3, 2, 8, kRle8, std::string("\5\5\0\1", 4))), "");
+}
+
 TEST(ImageBmp, DamagedRunsAreRefused) {
     EXPECT_EQ(bmpErrorOf(bmpFile(4, 2, 8, kRle8, std::string("\5\5\0\1", 4))),
               "a.bmp: damaged BMP file: a run does not fit its row");
