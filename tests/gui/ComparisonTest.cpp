@@ -111,7 +111,7 @@ class NightlyComparisonTest : public ComparisonTest {};
 INSTANTIATE_TEST_SUITE_P(, NightlyComparisonTest, kBothPrograms, nameOfProgram);
 
 // Two runs of equal work and one of another.
-TEST_P(SharedComparisonTest, RunsAreShownMarkedSelectedHiddenAndDeleted) {
+TEST_P(NightlyComparisonTest, RunsAreShownMarkedSelectedHiddenAndDeleted) {
     const std::string cpu = "ray-tracing-cpu", gpu = "ray-tracing-gpu";
     keep({run(cpu, "bsdf", "2026-01-01T00:00:01Z"), run(cpu, "mis", "2026-01-01T00:00:02Z"),
           run(gpu, "mis", "2026-01-01T00:00:03Z")});
@@ -155,7 +155,7 @@ TEST_P(SharedComparisonTest, RunsAreShownMarkedSelectedHiddenAndDeleted) {
 }
 
 // The points of two runs are far from each other, so that each is found by its colour.
-TEST_P(SharedComparisonTest, TableAndChartAreLinked) {
+TEST_P(NightlyComparisonTest, TableAndChartAreLinked) {
     app::RunRecord cpuRun = run("ray-tracing-cpu", "mis", "2026-01-01T00:00:01Z");
     app::RunRecord gpuRun = run("ray-tracing-gpu", "mis", "2026-01-01T00:00:02Z");
     cpuRun.renderSeconds = 7;
