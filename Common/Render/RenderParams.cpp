@@ -22,7 +22,8 @@ shared::uvec2 strata(const RenderSettings& settings) {
     return {columns, (samples + columns - 1) / columns};
 }
 
-// RenderParams::russianRoulette, by error times time (docs/measurements/light-sampling.md). Paths in rooms go on more often than
+// RenderParams::russianRoulette, by error times time (docs/measurements/light-sampling.md). Paths in rooms go on more
+// often than
 // their throughput says: indirect light makes most of the noise. Where there are many lamps their edges make it. Most
 // paths under a plain sky soon leave for it, which no light sampling has done for them: ending bright ones by chance
 // saves little and triples the variance.
@@ -81,7 +82,8 @@ bool mayReusePaths(const scene::CompiledScene& scene, const RenderSettings& sett
            shared::has(scene.features, shared::kEvenSurfaceFeatures) && !shared::has(scene.features, kPrevents);
 }
 
-// Whether that gains more than it costs, by error times time (docs/measurements/light-sampling.md): where indirect light makes the
+// Whether that gains more than it costs, by error times time (docs/measurements/light-sampling.md): where indirect light
+// makes the
 // noise, and not a sky, many lamps, the edges of a mesh's light or blurred mirrors.
 bool gainsByReuse(const scene::CompiledScene& scene) {
     constexpr shared::Features kOtherNoise =

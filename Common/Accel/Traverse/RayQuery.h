@@ -37,7 +37,8 @@ struct RayQuery {
 // The query for an instruction set; null if this build has none for it. The processor must have the instruction set.
 const RayQuery* rayQuery(InstructionSet set);
 
-// The newest instruction set that this build has kernels for and that the processor runs. Throws UsageError if there is none.
+// The newest instruction set that this build has kernels for and that the processor runs. Throws UsageError if there is
+// none.
 InstructionSet usableInstructionSet();
 
 // The query of that instruction set.

@@ -35,7 +35,7 @@ class SceneLoader {
     bool setOneSidedLights(bool on);      // loads anew what was requested last; false: it is loaded so
     SceneRequest lastRequest() const;
     void
-    giveUp(); // what is loaded or has just been; where it is being loaded, the last request is then the one before that was handed over
+    giveUp(); // what is loaded or has just been; the last request is then the one before that was handed over
     bool isWanted(const SceneRequest& request) const; // nothing else has been requested, nor has it been given up
     // What is being loaded, if anything.
     std::optional<std::string> busyWith() const;
