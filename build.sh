@@ -8,7 +8,7 @@ build_packages=(g++ cmake ninja-build pkg-config libglm-dev libspdlog-dev nlohma
                 libtinygltf-dev libstb-dev libjpeg-dev libpng-dev libopenexr-dev libtiff-dev libwebp-dev libtbb-dev
                 libvulkan-dev glslang-tools spirv-tools libglfw3-dev libimgui-dev fonts-dejavu-core)
 test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang vulkan-validationlayers xvfb xdotool libx11-dev
-               assimp-testmodels)
+               assimp-testmodels patch)
 bench_packages=(libbenchmark-dev libembree-dev)
 fuzz_packages=(clang libclang-rt-dev) # which holds libFuzzer and the sanitizers; clang only recommends it
 cluster_packages=(libopenmpi-dev openmpi-bin)

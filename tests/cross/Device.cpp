@@ -1,6 +1,7 @@
 #include "tests/cross/Device.h"
 
 #include <cstdlib>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -12,20 +13,27 @@
 namespace rt::test {
 namespace {
 
-// Whatever the tests did, the validation layers have nothing to say about it.
-class NoValidationMessages : public ::testing::Environment {
+std::optional<SharingContext> sharedContext;
+
+// Whatever the tests did, the validation layers have nothing to say about it. The device ends with the tests, not with
+// the program's other objects: by then layers may have taken down what they need for it.
+class EndOfDevice : public ::testing::Environment {
   public:
-    void TearDown() override { EXPECT_EQ(device().validationMessages(), 0u); }
+    void TearDown() override {
+        if (!sharedContext) return;
+        EXPECT_EQ(sharedContext->validationMessages(), 0u);
+        sharedContext.reset();
+    }
 };
 
-const auto* const kEnvironment = ::testing::AddGlobalTestEnvironment(new NoValidationMessages);
+const auto* const kEnvironment = ::testing::AddGlobalTestEnvironment(new EndOfDevice);
 
 } // namespace
 
 vulkan::VulkanContext& device() {
     const char* chosen = std::getenv("RT_DEVICE");
-    static SharingContext context({chosen != nullptr ? chosen : "", true});
-    return context;
+    if (!sharedContext) sharedContext.emplace(vulkan::ContextOptions{chosen != nullptr ? chosen : "", true});
+    return *sharedContext;
 }
 
 bool lacks(app::GpuEngineKind engine) {

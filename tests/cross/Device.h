@@ -9,7 +9,7 @@
 
 namespace rt::test {
 
-// With validation, synchronization included; lives as long as the program.
+// With validation, synchronization included; lives until the last test has ended.
 vulkan::VulkanContext& device();
 
 // Whether it lacks that engine; the test asserts that it is refused then.
