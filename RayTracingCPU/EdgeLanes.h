@@ -92,7 +92,8 @@ class EdgeRays {
         const CpuScene& scene = *context_.scene;
         const RenderParams& params = context_.params;
         const vec2 selection = selectionSample(kFeatures, scene.globals, u);
-        const LightChoice choice = chooseLight(kFeatures, scene, scene.globals.lightCount, selection, path.last);
+        const LightChoice choice =
+            chooseLight(kFeatures, scene, params.lightSelection, scene.globals.lightCount, selection, path.last);
         return sampleDirectLight(kFeatures, scene, params, choice, v, u, path);
     }
 

@@ -1,6 +1,7 @@
 // What sixteen paths hold between the stages of an iteration. Included by one translation unit per instruction set;
 // everything here has internal linkage.
 #pragma once
+#include "Common/Accel/Simd/LowestBit.h"
 #include "Common/Shared/Path/PathStep.h"
 #include "RayTracingCPU/Lanes.h"
 #include "RayTracingCPU/SceneAccess.h"
@@ -134,9 +135,7 @@ RT_FN void keepVertex(PathLanes& lanes, uint i, const Vertex& v) {
 // Calls work(i) for each lane of `set`, a bit a lane.
 template <class Work>
 RT_FN void eachLane(uint set, const Work& work) {
-    for (uint i = 0u; i < kLanes; ++i) {
-        if ((set >> i & 1u) != 0u) work(i);
-    }
+    for (uint rest = set; rest != 0u; rest &= rest - 1u) work(accel::lowestBit(rest));
 }
 
 RT_SHARED_END

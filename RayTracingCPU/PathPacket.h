@@ -167,7 +167,9 @@ class PathPacket {
             if (aimsPaths(kFeatures, params_)) active.aimed = aimScatterings();
             if (has(kFeatures, kFeaturePrincipled) && active.principled != 0u)
                 samplePrincipled<kFeatures>(active.layered, lanes_);
-            eachLane(active.arrived, [&](uint i) { continuePath(i, active); });
+            // No lambda: compilers would call what is in it.
+            for (uint rest = active.arrived; rest != 0u; rest &= rest - 1u)
+                continuePath(accel::lowestBit(rest), active);
         }
         if constexpr (kConnects) addConnections();
         if constexpr (kReuses) shared_.finish(tasks_, radiances_, counters_);
@@ -227,13 +229,13 @@ class PathPacket {
     }
 
     void end(PathSlot& slot) {
-        if (slot.path.emission == kEmissionCutOff)
+        if (isCutOff(params_, slot.path))
             counters_.cutOff += cutOffThroughput(slot.path, shared_.throughputBefore(slot.sample, slot.path));
         if constexpr (kReuses)
             shared_.ended(slot.sample, slot.path, radiances_[slot.sample]);
         else
             radiances_[slot.sample] = slot.path.radiance;
-        counters_.scattered += slot.path.vertex - 1u;
+        counters_.scattered += min(slot.path.vertex, params_.maxDepth) - 1u;
         slot.sample = kNone;
     }
 

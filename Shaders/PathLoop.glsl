@@ -201,7 +201,6 @@ void tellSamplesAreSpent() {
 bool stepAlong(SceneRef scene, RenderParams params, Work work, Hit hit, inout PathState path, inout DirectLight direct,
                inout TechniqueStep step) {
     uint before = path.reuse;
-    step.part.aimed = 0.0f;
     bool goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct, step);
     if (reusesPaths(kFeatures, params) && path.reuse != before) keepVertex(work, path, step.part);
     return goesOn;
@@ -272,7 +271,7 @@ void tracePaths(uint invocation) {
         }
         begins = !goesOn && !isChecking(direct, step);
         bool isOwn = work.edgeRays == 0u || work.edgeRays > params.edgeRays;
-        if (begins && isOwn && path.emission == kEmissionCutOff) countCutOff(invocation, work, path);
+        if (begins && isOwn && isCutOff(params, path)) countCutOff(invocation, work, path);
         bool isKept = reusesPaths(kFeatures, params) && begins && isOwn && endShared(work, path, nonfinite);
         if (begins && work.edgeRays <= 1u) {
             work.edgeRays = 0u;

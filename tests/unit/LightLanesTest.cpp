@@ -129,7 +129,7 @@ void setLane(Iteration& it, uint i) {
     it.lanes.time.at[i] = it.paths[i].ray.time;
 }
 
-void fill(Iteration& it, uint policy, Uniforms& uniform) {
+void fill(Iteration& it, Uniforms& uniform) {
     for (uint i = 0; i < kLanes; ++i) {
         it.vertices[i] = randomVertex(uniform);
         it.samples[i] = {};
@@ -137,8 +137,7 @@ void fill(Iteration& it, uint policy, Uniforms& uniform) {
         PathState& path = it.paths[i];
         path.throughput = vec3(0.5f, 0.25f, 1.0f);
         path.ray.time = static_cast<float>(uniform.between(0, 1));
-        path.last = lightContext(RenderParams{}, it.vertices[i]);
-        path.last.policy = policy;
+        path.last = lightContext(it.vertices[i]);
         setLane(it, i);
     }
 }
@@ -147,7 +146,8 @@ void fill(Iteration& it, uint policy, Uniforms& uniform) {
 DirectLight sampleAlone(const CpuScene& scene, const RenderParams& params, Iteration& it, uint i) {
     const vec2 u = lightSelectionSample(kFeatures, params, scene.globals, it.samples[i]);
     PathState& path = it.paths[i];
-    const LightChoice choice = chooseLight(kFeatures, scene, scene.globals.lightCount, u, path.last);
+    const LightChoice choice =
+        chooseLight(kFeatures, scene, params.lightSelection, scene.globals.lightCount, u, path.last);
     return sampleDirectLight(kFeatures, scene, params, choice, it.vertices[i], it.samples[i], path);
 }
 
@@ -185,7 +185,7 @@ TEST(LightLanes, SamplesAreThoseOfOnePathAtATime) {
             params.lightSampling = round % 2 == 0 ? kSampleMis : kSampleMisBalance;
             params.lightSelection = round % 3; // all that there are
             Iteration it;
-            fill(it, params.lightSelection, uniform);
+            fill(it, uniform);
             compare(scene.get(), params, round % 5 == 0 ? uniform.word() & 0xffffu : 0xffffu, it, seen);
             if (HasFatalFailure()) return;
         }
@@ -204,7 +204,7 @@ TEST(LightLanes, LanesNotInUseAreFilledWithAnything) {
     params.lightSelection = kSelectContribution;
     for (const unsigned char byte : {0x00, 0x7f, 0xff}) { // zero, huge, not a number
         Iteration it;
-        fill(it, kSelectContribution, uniform);
+        fill(it, uniform);
         std::memset(&it.lanes, byte, sizeof it.lanes);
         for (const uint i : {0u, 5u, 15u}) setLane(it, i);
         compare(scene.get(), params, 1u << 0 | 1u << 5 | 1u << 15, it, seen);

@@ -1,4 +1,5 @@
 // The paths of a packet are those of stepPath() alone, bit for bit: shaders compile its text, too.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <string>
@@ -70,7 +71,7 @@ vec3 tracePath(const KernelContext& context, const Sampler& smp, uvec2 pixel, Ke
             addDirectLight(kFeatureAll, scene, direct, path);
         }
     }
-    counters.scattered += path.vertex - 1u;
+    counters.scattered += std::min(path.vertex, context.params.maxDepth) - 1u;
     return path.radiance + connected;
 }
 

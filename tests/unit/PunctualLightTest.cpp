@@ -168,8 +168,8 @@ TEST_P(PunctualChoice, NeverLeavesOutALightThatContributes) {
         shared::LightContext context{};
         context.position = vec3(inBox(uniform, 4));
         context.normal = k % 5 == 0 ? vec3(0) : vec3(randomDirection(uniform));
-        context.policy = shared::kSelectContribution;
-        shared::chooseLight(shared::kFeatureAll, scene, s.globals.lightCount, uniform.pair(), context);
+        constexpr std::uint32_t kPolicy = shared::kSelectContribution;
+        shared::chooseLight(shared::kFeatureAll, scene, kPolicy, s.globals.lightCount, uniform.pair(), context);
         for (std::uint32_t i = 0; i < s.globals.lightCount; ++i) {
             if (!shared::isPunctual(shared::kFeatureAll, s.lights[i])) continue;
             const shared::LightSample sampled =
@@ -178,7 +178,8 @@ TEST_P(PunctualChoice, NeverLeavesOutALightThatContributes) {
             const float cosine = shared::isSurface(context.normal) ? dot(context.normal, sampled.wi) : 1.0f;
             if (!(sampled.pdf > 0 && cosine > 1e-6f && shared::maxComponent(sampled.radiance) > 1e-9f)) continue;
             ++contributing;
-            EXPECT_GT(shared::lightProbability(shared::kFeatureAll, scene, s.globals.lightCount, i, context), 0.0f)
+            EXPECT_GT(shared::lightProbability(shared::kFeatureAll, scene, kPolicy, s.globals.lightCount, i, context),
+                      0.0f)
                 << i << ", kind " << s.lights[i].kind << ", cosine " << cosine;
         }
     }
@@ -204,9 +205,8 @@ TEST_P(PunctualChoice, HasTheSumOfAllLightsAsItsMean) {
             shared::LightContext context{};
             context.position = position;
             context.normal = normal;
-            context.policy = policy;
             const shared::LightChoice choice =
-                shared::chooseLight(shared::kFeatureAll, scene, s.globals.lightCount, uniform.pair(), context);
+                shared::chooseLight(shared::kFeatureAll, scene, policy, s.globals.lightCount, uniform.pair(), context);
             mean.add(choice.light == shared::kNone ? 0 : irradiance(choice.light) / double(choice.probability));
         }
         EXPECT_TRUE(test::agrees(mean, truth)) << policy;

@@ -133,13 +133,13 @@ struct Features {
     constexpr Features(uint sceneBits, uint materialBits, uint methodBits)
         : scene(sceneBits), materials(materialBits), methods(methodBits) {}
 
-    constexpr Features operator&(const Features& other) const {
+    RT_METHOD_FN constexpr Features operator&(const Features& other) const {
         return {scene & other.scene, materials & other.materials, methods & other.methods};
     }
-    constexpr Features operator|(const Features& other) const {
+    RT_METHOD_FN constexpr Features operator|(const Features& other) const {
         return {scene | other.scene, materials | other.materials, methods | other.methods};
     }
-    constexpr Features operator~() const { return {~scene, ~materials, ~methods}; }
+    RT_METHOD_FN constexpr Features operator~() const { return {~scene, ~materials, ~methods}; }
     constexpr Features& operator|=(const Features& other) { return *this = *this | other; }
     constexpr Features& operator&=(const Features& other) { return *this = *this & other; }
     constexpr bool operator==(const Features&) const = default;

@@ -406,7 +406,6 @@ struct LightContext {
     vec3 position;
     vec3 normal;
     float total; // sum of contributions where selection is by contribution; 0: no light can contribute
-    uint policy; // the selection in force: kSelect...
 };
 
 const uint kChainNone = 0u;
@@ -437,7 +436,6 @@ const uint kEmissionWeighed = 0u;           // against the light sampling of the
 const uint kEmissionApart = 1u;             // not at all: edge rays count it
 const uint kEmissionApartBehindGlossy = 2u; // nor behind a glossy mirror, whose reflected light they sample as well
 const uint kEmissionOfEdgeRay = 3u;         // in full: the path is an edge ray
-const uint kEmissionCutOff = 4u;            // there is no more: max depth has ended a path that would have gone on
 
 // What a step settles of a path that is shared.
 struct SharedPart {
@@ -452,7 +450,7 @@ struct PathState {
     vec3 throughput;
     vec3 radiance;
     float pdf;         // density over solid angle of ray.direction; 0: from the camera or a delta lobe
-    uint vertex;       // surfaces and collisions met so far
+    uint vertex;       // surfaces and collisions met so far; one more where max depth has cut it off
     LightContext last; // where ray starts, for the weights of multiple importance sampling
     // Of techniques, see Techniques.h:
     SpecularChain chain; // where it scattered, for the weights against connections

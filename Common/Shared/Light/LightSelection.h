@@ -127,12 +127,13 @@ RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_I
 }
 
 // Chooses among the lights proper by u.x, or in a tree by both coordinates, and completes `context` with what
-// lightProbability needs.
-RT_FN LightChoice chooseLight(Features features, SceneRef scene, uint count, vec2 u, RT_INOUT(LightContext) context) {
+// lightProbability needs. `policy`: kSelect...
+RT_FN LightChoice chooseLight(Features features, SceneRef scene, uint policy, uint count, vec2 u,
+                              RT_INOUT(LightContext) context) {
     context.total = 0.0f;
     if (count == 0u) return noLightChoice();
-    if (context.policy == kSelectPower) return chooseByPower(scene, count, u.x);
-    if (context.policy == kSelectUniform) return chooseUniformly(count, u.x);
+    if (policy == kSelectPower) return chooseByPower(scene, count, u.x);
+    if (policy == kSelectUniform) return chooseUniformly(count, u.x);
     if (!usesLightTree(features, count)) return chooseByContribution(scene, count, u.x, context);
     TreeChoice drawn = chooseFromTree(scene, u, context.position, context.normal);
     context.total = drawn.total;
@@ -140,9 +141,10 @@ RT_FN LightChoice chooseLight(Features features, SceneRef scene, uint count, vec
 }
 
 // Probability with which chooseLight picks `light` in this context.
-RT_FN float lightProbability(Features features, SceneRef scene, uint count, uint light, RT_IN(LightContext) context) {
-    if (context.policy == kSelectPower) return loadLight(scene, light).selection;
-    if (context.policy == kSelectUniform) return 1.0f / float(count);
+RT_FN float lightProbability(Features features, SceneRef scene, uint policy, uint count, uint light,
+                             RT_IN(LightContext) context) {
+    if (policy == kSelectPower) return loadLight(scene, light).selection;
+    if (policy == kSelectUniform) return 1.0f / float(count);
     if (!(context.total > 0.0f)) return 0.0f;
     if (usesLightTree(features, count)) return treeProbability(scene, light, context.position, context.normal);
     return lightContribution(loadLightBound(scene, light), context.position, context.normal) / context.total;

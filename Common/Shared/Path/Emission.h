@@ -28,7 +28,8 @@ RT_FN void addSky(Features features, SceneRef scene, RT_IN(RenderParams) params,
     if (has(features, kFeatureSkyImage)) {
         RT_IN(SceneGlobals) globals = loadGlobals(scene);
         if (globals.skyLight != kNone && usesMis(params) && s.pdf > 0.0f) {
-            float probability = lightProbability(features, scene, globals.lightCount, globals.skyLight, s.last);
+            float probability =
+                lightProbability(features, scene, params.lightSelection, globals.lightCount, globals.skyLight, s.last);
             weight *= emissionWeight(params, s.pdf, probability * skyPdf(scene, s.ray.direction));
         }
     }
@@ -60,7 +61,8 @@ RT_FN void addEmission(Features features, SceneRef scene, RT_IN(RenderParams) pa
     vec3 emitted = surfaceEmission(features, scene, material, surface);
     float weight = share;
     if (has(features, kFeatureLights) && surface.light != kNone && usesMis(params) && s.pdf > 0.0f) {
-        float probability = lightProbability(features, scene, loadGlobals(scene).lightCount, surface.light, s.last);
+        float probability = lightProbability(features, scene, params.lightSelection, loadGlobals(scene).lightCount,
+                                             surface.light, s.last);
         float density = lightPdf(features, params, loadLight(scene, surface.light), s.last.position, s.last.normal,
                                  s.ray.time, s.ray.direction, distance, surface.normal);
         weight *= emissionWeight(params, s.pdf, probability * density);

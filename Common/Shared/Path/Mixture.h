@@ -32,11 +32,12 @@ RT_FN vec2 lightSelectionSample(Features features, RT_IN(RenderParams) params, R
 }
 
 // Probability of choosing entry i of lights and targets: targets share count / total, each the same.
-RT_FN float mixtureProbability(Features features, SceneRef scene, RT_IN(SceneGlobals) globals, uint i,
-                               RT_IN(LightContext) context) {
+RT_FN float mixtureProbability(Features features, SceneRef scene, RT_IN(RenderParams) params,
+                               RT_IN(SceneGlobals) globals, uint i, RT_IN(LightContext) context) {
     float all = float(globals.lightCount + globals.targetCount);
     if (i >= globals.lightCount) return 1.0f / all;
-    return float(globals.lightCount) / all * lightProbability(features, scene, globals.lightCount, i, context);
+    return float(globals.lightCount) / all *
+           lightProbability(features, scene, params.lightSelection, globals.lightCount, i, context);
 }
 
 // Density over solid angle with which light sampling as a whole, occluded or not, proposes wi.
@@ -52,7 +53,7 @@ RT_FN float mixtureLightPdf(Features features, SceneRef scene, RT_IN(RenderParam
         } else if (!isPunctual(features, light)) {
             density = lightPdfAlong(features, params, light, context.position, context.normal, time, wi);
         }
-        if (density > 0.0f) sum += density * mixtureProbability(features, scene, globals, i, context);
+        if (density > 0.0f) sum += density * mixtureProbability(features, scene, params, globals, i, context);
     }
     return sum;
 }
@@ -74,12 +75,13 @@ RT_FN LightChoice mixtureChoice(Features features, RT_IN(SceneGlobals) globals, 
 
 // Share of the bsdf in the mixture: half, and of the lights' half what falls to punctual lights, which no direction
 // hits.
-RT_FN float bsdfShare(Features features, SceneRef scene, RT_IN(SceneGlobals) globals, RT_IN(LightContext) context) {
+RT_FN float bsdfShare(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals,
+                      RT_IN(LightContext) context) {
     float share = 0.5f;
     if (!has(features, kFeaturePunctualLights)) return share;
     for (uint i = 0u; i < globals.lightCount; i++) {
         if (!isPunctual(features, loadLight(scene, i))) continue;
-        share += 0.5f * mixtureProbability(features, scene, globals, i, context);
+        share += 0.5f * mixtureProbability(features, scene, params, globals, i, context);
     }
     return share;
 }
@@ -106,12 +108,12 @@ RT_FN BsdfSample sampleMixture(Features features, SceneRef scene, RT_IN(RenderPa
                                RT_IN(LightContext) context) {
     RT_IN(SceneGlobals) globals = loadGlobals(scene);
     // Where no light can contribute and there is no target, the lights' half of the mixture would be empty.
-    bool lightless = context.policy == kSelectContribution && !(context.total > 0.0f);
+    bool lightless = params.lightSelection == kSelectContribution && !(context.total > 0.0f);
     if (lightless && globals.targetCount == 0u) return b;
     BsdfSample mixed = b;
     LightChoice choice = mixtureChoice(features, globals, light, u);
     bool aimsAtLight = u.roulette.y < 0.5f && hasDirections(features, scene, choice);
-    float share = bsdfShare(features, scene, globals, context);
+    float share = bsdfShare(features, scene, params, globals, context);
     if (!aimsAtLight && (b.delta != 0u || b.transmitted != 0u)) {
         // Lights have no part in a mirror's direction, and they are aimed at on the side of wo only.
         mixed.weight = b.weight * (1.0f / share);

@@ -41,7 +41,6 @@ RT_FN PathState startPath(RT_IN(Ray) ray) {
     s.last.position = ray.origin;
     s.last.normal = vec3(0.0f, 0.0f, 0.0f);
     s.last.total = 0.0f;
-    s.last.policy = kSelectUniform;
     beginTechniques(s);
     return s;
 }
@@ -80,8 +79,13 @@ RT_FN void absorbInside(SceneRef scene, RT_IN(Surface) surface, float distance, 
 // Whether max depth ends the path, which would go on here.
 RT_FN bool endsAtMaxDepth(RT_IN(RenderParams) params, RT_INOUT(PathState) s) {
     if (s.vertex < params.maxDepth) return false;
-    s.emission = kEmissionCutOff;
+    s.vertex = params.maxDepth + 1u;
     return true;
+}
+
+// Whether it has ended the path.
+RT_FN bool isCutOff(RT_IN(RenderParams) params, RT_IN(PathState) s) {
+    return s.vertex > params.maxDepth;
 }
 
 // What a path that has been cut off would have gone on with, the mean of the channels; times what came `before` where
@@ -116,7 +120,7 @@ RT_FN bool shadeHit(Features features, SceneRef scene, RT_IN(RenderParams) param
         placeOnSurface(features, scene, s, surface, material, v);
         if (!goOnAtSurface(features, params, surface, v, s, step)) return false;
     }
-    s.last = lightContext(params, v);
+    s.last = lightContext(v);
     return true;
 }
 
@@ -156,6 +160,7 @@ RT_FN bool continuePath(Features features, RT_IN(RenderParams) params, RT_IN(Ver
 RT_FN bool stepPath(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
                     RT_INOUT(PathState) s, RT_INOUT(DirectLight) direct, RT_INOUT(TechniqueStep) step) {
     Vertex v;
+    step.part = nothingShared(); // no engine carries it along from the step before
     if (!shadeHit(features, scene, params, smp, hit, s, step, v)) return false;
     completeVertex(features, scene, v);
     VertexSamples u = vertexSamples(features, smp, v.index);
@@ -166,7 +171,7 @@ RT_FN bool stepPath(Features features, SceneRef scene, RT_IN(RenderParams) param
     LightChoice choice = noLightChoice();
     if (nextEvent || mixture) {
         vec2 selection = lightSelectionSample(features, params, globals, u);
-        choice = chooseLight(features, scene, globals.lightCount, selection, s.last);
+        choice = chooseLight(features, scene, params.lightSelection, globals.lightCount, selection, s.last);
     }
     if (nextEvent) {
         direct = sampleDirectLight(features, scene, params, choice, v, u, s);

@@ -125,12 +125,11 @@ RT_FN BsdfSample sampleScattering(Features features, RT_IN(Vertex) v, vec2 u) {
     return sampleBsdf(features, v.bsdf, v.shading, v.front, v.wo, u, u.x);
 }
 
-RT_FN LightContext lightContext(RT_IN(RenderParams) params, RT_IN(Vertex) v) {
+RT_FN LightContext lightContext(RT_IN(Vertex) v) {
     LightContext context;
     context.position = v.origin;
     context.normal = v.shading;
     context.total = 0.0f;
-    context.policy = params.lightSelection;
     return context;
 }
 

@@ -26,6 +26,14 @@ RT_FN bool reusesPaths(Features features, RT_IN(RenderParams) params) {
     return uses(features, params, kMethodReuse);
 }
 
+RT_FN SharedPart nothingShared() {
+    SharedPart part;
+    part.prefix = vec3(0.0f, 0.0f, 0.0f);
+    part.throughput = vec3(0.0f, 0.0f, 0.0f);
+    part.aimed = 0.0f;
+    return part;
+}
+
 // Follows a path to v, on this surface. Where v is its second vertex, s goes on as the path of what v sends out, and
 // `prefix` is what it had brought before.
 RT_FN void followReuse(Features features, RT_IN(Surface) surface, RT_IN(Vertex) v, RT_INOUT(PathState) s,

@@ -34,9 +34,7 @@ RT_FN void beginTechniques(RT_INOUT(PathState) s) {
 
 RT_FN TechniqueStep beginTechniqueStep() {
     TechniqueStep step;
-    step.part.prefix = vec3(0.0f, 0.0f, 0.0f);
-    step.part.throughput = vec3(0.0f, 0.0f, 0.0f);
-    step.part.aimed = 0.0f;
+    step.part = nothingShared();
     step.connection = noConnection();
     return step;
 }

@@ -303,12 +303,15 @@ RT_FN LightBound probeTableBound(uint i) {
     return bound;
 }
 
+RT_FN uint probePolicy(uint which) {
+    return which == 1u ? kSelectPower : (which == 2u ? kSelectUniform : kSelectContribution);
+}
+
 RT_FN LightContext probeContext(uint which) {
     LightContext context;
     context.position = vec3(0.3f, -0.2f, 0.1f);
     context.normal = which == 3u ? vec3(0.0f) : vec3(0.0f, 1.0f, 0.0f);
     context.total = 0.0f;
-    context.policy = which == 1u ? kSelectPower : (which == 2u ? kSelectUniform : kSelectContribution);
     return context;
 }
 
@@ -328,11 +331,11 @@ RT_FN uvec4 probeChoice(SceneRef scene, uint which, uint mode, uint i) {
         if (which != 3u) context.normal = probeUnit(a);
         if ((i & 7u) < 2u) u.x = float(i & 1u) * 0.99999994f;
     }
-    LightChoice c = chooseLight(kFeatureQuadLights, scene, kProbeLights, u, context);
+    LightChoice c = chooseLight(kFeatureQuadLights, scene, probePolicy(which), kProbeLights, u, context);
     float sum = 0.0f;
     float again = 0.0f;
     for (uint k = 0u; k < kProbeLights; k++) {
-        float p = lightProbability(kFeatureQuadLights, scene, kProbeLights, k, context);
+        float p = lightProbability(kFeatureQuadLights, scene, probePolicy(which), kProbeLights, k, context);
         sum += p;
         again = k == c.light ? p : again;
     }
