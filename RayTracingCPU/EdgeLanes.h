@@ -54,10 +54,9 @@ class EdgeRays {
         drawCameraSamples<kFeatures>(samplers_, u);
         for (uint i = 0u; i < waiting_; ++i) {
             CameraSamples inPart = get(u, i);
-            inPart.pixel = placeInPart(parts_[i], inPart.pixel);
+            const CameraRole role = roleInPart(params, parts_[i], true, inPart.pixel);
             const Ray ray = cameraRay(kFeatures, params, camera, pixels_[i], inPart);
-            entries_[entryOf_[i]].radiance +=
-                trace(get(samplers_, i), startEdgeRay(params, parts_[i], ray, vec3(0.0f)));
+            entries_[entryOf_[i]].radiance += trace(get(samplers_, i), startInRole(ray, role));
         }
         waiting_ = 0u;
     }

@@ -3,44 +3,41 @@
 #include <cstdint>
 #include <span>
 
+// Each with the array that cmake/Shaders.cmake makes of it. Kernels by what they are for and how they trace: through the
+// pipeline, compute shaders through our own tree, or by ray queries. Heavy ones have all code of shared headers, see
+// Shim.h.
+#define RT_GPU_KERNELS(X, purpose, array) \
+    X(purpose##Pipeline, array##_rgen)    \
+    X(purpose##Compute, array##_comp)     \
+    X(purpose##Query, array##_Query_comp)
+
+#define RT_GPU_SHADERS(X)                                      \
+    RT_GPU_KERNELS(X, Paths, PathTrace)                        \
+    RT_GPU_KERNELS(X, Rays, PathTrace_Rays)                    \
+    RT_GPU_KERNELS(X, Time, PathTrace_Time)                    \
+    RT_GPU_KERNELS(X, HeavyPaths, PathTrace_HeavyFeatures)     \
+    RT_GPU_KERNELS(X, HeavyRays, PathTrace_HeavyFeatures_Rays) \
+    RT_GPU_KERNELS(X, HeavyTime, PathTrace_HeavyFeatures_Time) \
+    RT_GPU_KERNELS(X, Reuse, PathReuse)                        \
+    RT_GPU_KERNELS(X, FirstHits, Aov)                          \
+    X(Miss, RayTracing_rmiss)                                  \
+    X(TriangleHit, RayTracing_rchit)                           \
+    X(QuadHit, RayTracing_Quad_rchit)                          \
+    X(SphereHit, RayTracing_Procedural_rchit)                  \
+    X(SphereIntersection, RayTracing_Procedural_rint)          \
+    X(FilmReduce, FilmReduce_comp)                             \
+    X(FilmResolve, FilmResolve_comp)                           \
+    X(SampleList, SampleList_comp)                             \
+    X(PreviewVertex, Preview_vert)                             \
+    X(PreviewFragment, Preview_frag)                           \
+    X(PreviewFinish, Preview_comp)
+
 namespace rt::gpu {
 
 enum class Shader {
-    PathCompute,
-    PathQuery,
-    HeavyPathCompute, // with all code of shared headers, as have others named so, see Shim.h
-    HeavyPathQuery,
-    ReuseCompute,
-    ReuseQuery,
-    AovCompute,
-    AovQuery,
-    CostCompute,
-    CostQuery,
-    HeavyCostCompute,
-    HeavyCostQuery,
-    TimeCompute,
-    TimeQuery,
-    HeavyTimeCompute,
-    HeavyTimeQuery,
-    RayGeneration,
-    HeavyRayGeneration,
-    ReuseGeneration,
-    AovGeneration,
-    CostGeneration,
-    HeavyCostGeneration,
-    TimeGeneration,
-    HeavyTimeGeneration,
-    Miss,
-    TriangleHit,
-    QuadHit,
-    SphereHit,
-    SphereIntersection,
-    FilmReduce,
-    SampleList,
-    FilmResolve,
-    PreviewVertex,
-    PreviewFragment,
-    PreviewFinish,
+#define RT_SHADER(shader, array) shader,
+    RT_GPU_SHADERS(RT_SHADER)
+#undef RT_SHADER
 };
 
 // SPIR-V words, living as long as the program.

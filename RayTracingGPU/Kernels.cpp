@@ -12,40 +12,31 @@ namespace {
 constexpr std::uint32_t kInvocations = 1u << 17;     // fill the largest GPUs
 constexpr std::uint32_t kSoftInvocations = 1u << 14; // fill the largest processors
 
-struct Shaders {
-    Shader pipeline; // ray generation
-    Shader compute;
-    Shader query;
-
-    Shader of(app::GpuEngineKind engine) const {
-        return engine == app::GpuEngineKind::Pipeline ? pipeline
-               : engine == app::GpuEngineKind::Query  ? query
-                                                      : compute;
-    }
-};
-
 // What only the full shaders have, see RT_HEAVY_FEATURES in Common/Shared/Base/Shim.h.
 constexpr shared::Features kHeavyFeatures = shared::kMethodProjected | shared::kFeaturePrincipled |
                                             shared::kFeatureOpacity | shared::kFeatureCoatNormal |
                                             shared::kMethodConnections;
 
-Shaders shadersFor(KernelPurpose purpose, bool heavy) {
+// The first of a purpose's kernels; the others follow it by engine, see RT_GPU_KERNELS.
+Shader firstOf(KernelPurpose purpose, bool heavy) {
     switch (purpose) {
         case KernelPurpose::Reuse:
-            return {Shader::ReuseGeneration, Shader::ReuseCompute, Shader::ReuseQuery};
+            return Shader::ReusePipeline;
         case KernelPurpose::FirstHits:
-            return {Shader::AovGeneration, Shader::AovCompute, Shader::AovQuery}; // full as well
+            return Shader::FirstHitsPipeline; // heavy as well
         case KernelPurpose::Rays:
-            return heavy ? Shaders{Shader::HeavyCostGeneration, Shader::HeavyCostCompute, Shader::HeavyCostQuery}
-                         : Shaders{Shader::CostGeneration, Shader::CostCompute, Shader::CostQuery};
+            return heavy ? Shader::HeavyRaysPipeline : Shader::RaysPipeline;
         case KernelPurpose::Time:
-            return heavy ? Shaders{Shader::HeavyTimeGeneration, Shader::HeavyTimeCompute, Shader::HeavyTimeQuery}
-                         : Shaders{Shader::TimeGeneration, Shader::TimeCompute, Shader::TimeQuery};
+            return heavy ? Shader::HeavyTimePipeline : Shader::TimePipeline;
         case KernelPurpose::Paths:
             break;
     }
-    return heavy ? Shaders{Shader::HeavyRayGeneration, Shader::HeavyPathCompute, Shader::HeavyPathQuery}
-                 : Shaders{Shader::RayGeneration, Shader::PathCompute, Shader::PathQuery};
+    return heavy ? Shader::HeavyPathsPipeline : Shader::PathsPipeline;
+}
+
+Shader shaderFor(KernelPurpose purpose, bool heavy, app::GpuEngineKind engine) {
+    const int place = engine == app::GpuEngineKind::Pipeline ? 0 : engine == app::GpuEngineKind::Compute ? 1 : 2;
+    return static_cast<Shader>(static_cast<int>(firstOf(purpose, heavy)) + place);
 }
 
 } // namespace
@@ -53,7 +44,7 @@ Shaders shadersFor(KernelPurpose purpose, bool heavy) {
 std::unique_ptr<Kernel> makeKernel(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache,
                                    const RenderBindings& bindings, app::GpuEngineKind engine, KernelPurpose purpose,
                                    const SpecializationConstants& constants) {
-    const Shader shader = shadersFor(purpose, shared::has(constants.features, kHeavyFeatures)).of(engine);
+    const Shader shader = shaderFor(purpose, shared::has(constants.features, kHeavyFeatures), engine);
     if (engine == app::GpuEngineKind::Pipeline) {
         return std::make_unique<RtPipeline>(context, cache, bindings, constants, shader);
     }

@@ -1,12 +1,9 @@
-// Paths in compute shaders: through our own tree or by ray queries, for devices whose ray tracing pipeline is missing
-// or slower.
+// Paths: of the samples of a film, or with RT_RAYS or RT_TIME of pixels whose cost is asked for.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "Trace.glsl"
 #include "PathLoop.glsl"
 
-layout(local_size_x_id = kGroupSizeId) in;
-
 void main() {
-    tracePaths(gl_GlobalInvocationID.x);
+    tracePaths(invocationNumber());
 }

@@ -24,9 +24,10 @@ function(rt_require_vulkan)
     endif()
 endfunction()
 
-# For each of the files in Shaders/, or in the folder after FROM, X.ext becomes the header "X.ext.h" in an include folder of `target`, with the array
-# X_ext of words. X.Some.NewVariant.ext, where there is no such file, is X.ext with RT_SOME and RT_NEW_VARIANT defined. A change of
-# any file that a shader includes builds it anew.
+# For each of the files in Shaders/, or in the folder after FROM, X.ext becomes the header "X.ext.h" in an include folder
+# of `target`, with the array X_ext of words; "TARGET.shaders.h" includes them all. X.Some.NewVariant.ext, where there is
+# no such file, is X.ext with RT_SOME and RT_NEW_VARIANT defined. X.rgen is X.comp as a ray generation shader, with
+# RT_PIPELINE defined. A change of any file that a shader includes builds it anew.
 function(rt_embed_shaders target)
     cmake_parse_arguments(arg "" "FROM" "" ${ARGN})
     set(sources ${PROJECT_SOURCE_DIR}/Shaders)
@@ -35,6 +36,7 @@ function(rt_embed_shaders target)
     endif()
     set(folder ${PROJECT_BINARY_DIR}/shaders)
     file(MAKE_DIRECTORY ${folder})
+    set(headers)
     foreach(shader IN LISTS arg_UNPARSED_ARGUMENTS)
         set(source ${sources}/${shader})
         set(defines)
@@ -42,11 +44,15 @@ function(rt_embed_shaders target)
             string(REPLACE "." ";" parts ${shader})
             list(POP_FRONT parts name)
             list(POP_BACK parts extension)
-            set(source ${sources}/${name}.${extension})
             list(TRANSFORM parts REPLACE "([a-z])([A-Z])" "\\1_\\2")
             list(TRANSFORM parts TOUPPER)
             list(TRANSFORM parts PREPEND -DRT_)
             set(defines ${parts})
+            if(extension STREQUAL "rgen")
+                set(extension comp)
+                list(APPEND defines -S rgen -DRT_PIPELINE)
+            endif()
+            set(source ${sources}/${name}.${extension})
         endif()
         set(binary ${folder}/${shader}.spv)
         set(header ${folder}/${shader}.h)
@@ -66,6 +72,8 @@ function(rt_embed_shaders target)
             COMMENT "Shader ${shader}"
             VERBATIM)
         target_sources(${target} PRIVATE ${header})
+        string(APPEND headers "#include \"${shader}.h\"\n")
     endforeach()
+    file(CONFIGURE OUTPUT ${folder}/${target}.shaders.h CONTENT "${headers}" @ONLY)
     target_include_directories(${target} PRIVATE ${folder})
 endfunction()

@@ -50,14 +50,40 @@ RT_FN float edgeWeight(RT_IN(RenderParams) params, RT_IN(PixelPart) part) {
     return part.size.x * part.size.y / float(params.edgeRays);
 }
 
-// The path of an edge ray, which ends at its first vertex that is no mirror and no glass, or at the one behind a
-// glossy mirror. `radiance` is what the sample has brought before.
-RT_FN PathState startEdgeRay(RT_IN(RenderParams) params, RT_IN(PixelPart) part, RT_IN(Ray) ray, vec3 radiance) {
+// How the path of a camera ray begins: what it weighs, and how emission counts that it finds in sight.
+struct CameraRole {
+    float weight;
+    uint emission;
+};
+
+// Where there are no edge rays.
+RT_FN CameraRole wholePixel() {
+    CameraRole role;
+    role.weight = 1.0f;
+    role.emission = kEmissionWeighed;
+    return role;
+}
+
+// In a pixel with edge rays in this part: of one of these, whose place in the pixel is moved there, or of the sample's
+// own ray, which leaves to them what it finds there.
+RT_FN CameraRole roleInPart(RT_IN(RenderParams) params, RT_IN(PixelPart) part, bool isEdgeRay, RT_INOUT(vec2) place) {
+    CameraRole role = wholePixel();
+    if (isEdgeRay) {
+        place = placeInPart(part, place);
+        role.weight = edgeWeight(params, part);
+        role.emission = kEmissionOfEdgeRay;
+    } else if (isInPart(part, place)) {
+        role.emission = kEmissionApart;
+    }
+    return role;
+}
+
+// That of an edge ray ends at its first vertex that is no mirror and no glass, or at the one behind a glossy mirror.
+RT_FN PathState startInRole(RT_IN(Ray) ray, RT_IN(CameraRole) role) {
     PathState s = startPath(ray);
-    s.throughput = vec3(edgeWeight(params, part));
-    s.radiance = radiance;
-    s.emission = kEmissionOfEdgeRay;
-    s.reuse = kReuseNone;
+    s.throughput = vec3(role.weight, role.weight, role.weight);
+    s.emission = role.emission;
+    if (role.emission == kEmissionOfEdgeRay) s.reuse = kReuseNone;
     return s;
 }
 
