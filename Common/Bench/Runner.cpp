@@ -13,6 +13,7 @@
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Bench/Analysis.h"
 #include "Common/Bench/Pictures.h"
+#include "Common/Bench/ReferenceRows.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Render/Stopwatch.h"
@@ -103,8 +104,6 @@ class SuiteRunner {
     Ladder ladderFor(const Experiment& experiment, const Config& config);
     void loadScene(const std::string& source);
     const image::Reference* provideReference(const Group& group, std::vector<std::vector<Row>>& rows);
-    void keep(const ReferenceRow& row);
-    void verifyReference(const std::vector<std::vector<Row>>& rows, ReferenceRow& reference);
 
     const Suite& suite_;
     Engines& engines_;
@@ -343,15 +342,7 @@ const image::Reference* SuiteRunner::provideReference(const Group& group, std::v
     referenceSuffices_ = made->sufficient;
     for (std::size_t i = 0; i < rows.size(); ++i) addErrors(rows[i], group.measured[i], reference_);
 
-    double variance = 0;
-    for (const float value : reference_.variance.data) variance += value;
-    ReferenceRow row{
-        group.scene, request.width, request.height, request.maxDepth, config.engine, {}, {}, {}, false, false, "", {}};
-    row.spp = static_cast<double>(made->spp);
-    row.seconds = made->seconds;
-    row.rmse = std::sqrt(variance / static_cast<double>(reference_.variance.data.size()));
-    row.cached = made->cached;
-    row.sufficient = made->sufficient;
+    ReferenceRow row = makeReferenceRow(group.scene, request, config.engine, *made, reference_);
     verifyReference(rows, row);
     hooks_.say("reference of " + group.scene + ": " + std::to_string(made->spp) + " spp, " +
                format("%.3g s", made->seconds) + (made->cached ? ", partly cached" : ""));
@@ -359,38 +350,8 @@ const image::Reference* SuiteRunner::provideReference(const Group& group, std::v
         notice(group.scene +
                ": the reference's standard error is more than a third of the least error measured; its "
                "variance is subtracted, but intervals are wider.");
-    keep(row);
+    keepReference(row, results_.references);
     return &reference_;
-}
-
-// A row for each reference, however many experiments it serves.
-void SuiteRunner::keep(const ReferenceRow& row) {
-    for (ReferenceRow& earlier : results_.references) {
-        if (earlier.scene != row.scene || earlier.width != row.width || earlier.height != row.height ||
-            earlier.maxDepth != row.maxDepth)
-            continue;
-        ReferenceRow both = row;
-        both.seconds = earlier.seconds.value_or(0) + row.seconds.value_or(0);
-        both.cached = earlier.cached;
-        if (std::abs(earlier.verifiedZ.value_or(0)) >= std::abs(row.verifiedZ.value_or(0))) {
-            both.verifiedBy = earlier.verifiedBy;
-            both.verifiedZ = earlier.verifiedZ;
-        }
-        earlier = both;
-        return;
-    }
-    results_.references.push_back(row);
-}
-
-// An engine of another kind finds the same image, or one of the two is wrong.
-void SuiteRunner::verifyReference(const std::vector<std::vector<Row>>& rows, ReferenceRow& reference) {
-    for (const std::vector<Row>& own : rows)
-        for (const Row& row : own) {
-            if (isGpuEngine(row.config.engine) == isGpuEngine(reference.engine) || !row.biasZ) continue;
-            reference.verifiedBy = row.config.engine;
-            if (!reference.verifiedZ || std::abs(*row.biasZ) > std::abs(*reference.verifiedZ))
-                reference.verifiedZ = row.biasZ;
-        }
 }
 
 } // namespace
