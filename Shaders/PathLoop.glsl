@@ -45,7 +45,6 @@ void nextEdgeRay(RenderParams params, inout Work work) {
 bool stepAlong(SceneRef scene, RenderParams params, Work work, Hit hit, inout PathState path, inout DirectLight direct,
                inout TechniqueStep step) {
     uint before = path.reuse;
-    step.part.aimed = 0.0f;
     bool goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct, step);
     if (reusesPaths(kFeatures, params) && path.reuse != before) keepVertex(work, path, step.part);
     return goesOn;
