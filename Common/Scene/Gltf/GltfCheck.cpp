@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "Common/Core/Printable.h"
+#include "Common/Scene/Counted.h"
 #include "Common/Scene/Gltf/GltfValues.h"
 
 namespace rt::scene {

@@ -5,12 +5,17 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/OtherCase.h"
 #include "Common/Core/Printable.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Scene/Counted.h"
 #include "Common/Scene/Gltf/GltfCheck.h"
 #include "Common/Scene/Gltf/GltfUri.h"
 #include "Common/Scene/Gltf/GltfValues.h"

@@ -17,6 +17,7 @@
 #include "Common/Core/Printable.h"
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/Compiler/Bounds.h"
+#include "Common/Scene/Counted.h"
 #include "Common/Scene/Gltf/GltfAccessor.h"
 #include "Common/Scene/Gltf/GltfBudget.h"
 #include "Common/Scene/Gltf/GltfCameras.h"

@@ -11,6 +11,7 @@
 #include "Common/Core/Interruption.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/SystemMemory.h"
+#include "Common/Scene/Counted.h"
 #include "Common/Scene/Gltf/GltfAccessor.h"
 #include "Common/Scene/Gltf/GltfSkin.h"
 #include "Common/Scene/Gltf/GltfValues.h"

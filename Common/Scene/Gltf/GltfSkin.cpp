@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "Common/Scene/Counted.h"
 #include "Common/Scene/Gltf/GltfAccessor.h"
 #include "Common/Scene/Gltf/GltfValues.h"
 

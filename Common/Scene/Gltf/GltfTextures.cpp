@@ -8,8 +8,10 @@
 
 #include <glm/common.hpp>
 
+#include "Common/Core/OtherCase.h"
 #include "Common/Core/Printable.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Scene/Counted.h"
 #include "Common/Scene/Gltf/GltfUri.h"
 #include "Common/Scene/Json/JsonNode.h"
 

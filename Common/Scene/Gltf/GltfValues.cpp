@@ -27,8 +27,4 @@ const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const
     return found == extensions.end() ? nullptr : &found->second;
 }
 
-std::string counted(std::uint64_t count, const char* one, const char* more) {
-    return std::to_string(count) + ' ' + (count == 1 ? one : more);
-}
-
 } // namespace rt::scene

@@ -18,7 +18,4 @@ double numberOf(const tinygltf::Value& object, const char* key, double usual);
 double component(const tinygltf::Value& object, const char* key, int index, double usual);
 glm::dvec3 vectorOf(const tinygltf::Value& object, const char* key, double usual);
 
-// "1 mesh", "2 meshes".
-std::string counted(std::uint64_t count, const char* one, const char* more);
-
 } // namespace rt::scene

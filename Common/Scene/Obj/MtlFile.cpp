@@ -9,6 +9,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Core/Printable.h"
+#include "Common/Scene/Counted.h"
 #include "Common/Scene/Obj/ObjText.h"
 
 namespace rt::scene {

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 
 #include "Common/Scene/Compiler/MaterialTable.h"
+#include "Common/Scene/Counted.h"
 #include "Common/Scene/Json/JsonNode.h"
 #include "Common/Scene/Obj/MtlModels.h"
 #include "Common/Scene/Obj/ObjText.h"

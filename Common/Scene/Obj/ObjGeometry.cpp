@@ -12,6 +12,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Core/Printable.h"
+#include "Common/Scene/Counted.h"
 #include "Common/Scene/Obj/ObjText.h"
 #include "Common/Scene/Obj/Polygon.h"
 #include "Common/Shared/Base/Types.h"

@@ -9,6 +9,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Printable.h"
 #include "Common/Scene/Compiler/Bounds.h"
+#include "Common/Scene/Counted.h"
 #include "Common/Scene/FramingCamera.h"
 #include "Common/Scene/Obj/MtlMaterials.h"
 #include "Common/Scene/Obj/ObjFiles.h"

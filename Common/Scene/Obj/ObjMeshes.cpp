@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
+#include "Common/Scene/Counted.h"
 #include "Common/Scene/Obj/ObjGeometry.h"
 #include "Common/Scene/Obj/ObjText.h"
 #include "Common/Shared/Base/Types.h"

@@ -232,8 +232,4 @@ std::string listed(const std::set<std::string>& names) {
     return text;
 }
 
-std::string counted(std::size_t count, std::string_view one, std::string_view many) {
-    return std::to_string(count) + ' ' + std::string(count == 1 ? one : many);
-}
-
 } // namespace rt::scene

@@ -51,7 +51,5 @@ std::string_view nameIn(std::string_view text);
 
 // `"a"`, `"a" and "b"`, `"a", "b", "c" and 7 others`; not of nothing.
 std::string listed(const std::set<std::string>& names);
-// `1 face`, `2 faces`.
-std::string counted(std::size_t count, std::string_view one, std::string_view many);
 
 } // namespace rt::scene

@@ -1,5 +1,6 @@
 #include "Common/Scene/Obj/ObjTroubles.h"
 
+#include "Common/Scene/Counted.h"
 #include "Common/Scene/Obj/ObjText.h"
 
 namespace rt::scene {
