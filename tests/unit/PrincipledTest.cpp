@@ -207,6 +207,32 @@ TEST(Principled, MirrorsAreTheLimitOfRoughness) {
 
 // ---- from scene files ----------------------------------------------------------------------------------------------
 
+// However few digits the number that chose the lobe has left.
+TEST(Principled, GlassOfASmallShareReflectsAsMuchAsItShould) {
+    const vec3 wo = outgoingAt(0.6);
+    PrincipledCase glass{};
+    glass.transmission = 1;
+    for (const int digits : {0, 4, 8, 12}) {
+        Bsdf b = bsdfOf(principledOf(glass, 0.5f), vec3(1), wo);
+        b.lobes.glassShare = std::ldexp(1.0f, -digits);
+        b.lobes.diffuseShare = 1 - b.lobes.glassShare;
+        b.lobes.specularShare = b.lobes.coatShare = 0;
+        Uniforms uniform(34);
+        double reflected = 0, expected = 0, variance = 0;
+        for (int i = 0; i < 1 << 16; ++i) {
+            const float cell = std::floor(std::ldexp(uniform(), 24 - digits)); // of the grid that numbers lie on
+            const vec2 u(b.lobes.diffuseShare + std::ldexp(cell, -24), uniform());
+            const vec2 pick(remapSample(u.x, b.lobes.diffuseShare, 1), u.y);
+            const vec3 h = sampleVisibleNormal(wo, b.lobes.alpha, pick);
+            const double f = fresnel(dot(wo, h), b.lobes.eta).x;
+            expected += f;
+            variance += f * (1 - f);
+            reflected += proposePrincipled(kFeatureAll, b, wo, u).transmitted == 0;
+        }
+        EXPECT_NEAR(reflected, expected, 4 * std::sqrt(variance)) << digits;
+    }
+}
+
 TEST(Principled, ScenesWithoutItHaveNoneOfIt) {
     scene::SceneDesc desc;
     desc.materials["plain"] = {};

@@ -1,6 +1,7 @@
 // Sampling of quads: uniform in area, solid angle or projected solid angle, or what serves best from where it is seen.
 #ifndef RT_SHARED_QUAD_LIGHT_H
 #define RT_SHARED_QUAD_LIGHT_H
+#include "Common/Shared/Base/Random.h"
 #include "Common/Shared/Light/FlatLight.h"
 #include "Common/Shared/Shape/SphericalShapes.h"
 #include "Common/Shared/Texture/Bilinear.h"
@@ -149,7 +150,7 @@ RT_FN LightSample sampleQuadSolidAngle(RT_IN(Light) light, vec3 position, vec3 n
         x -= half0.solidAngle;
         half0 = half1;
     }
-    s.wi = sampleSphericalTriangle(half0, vec2(min(x / half0.solidAngle, 1.0f), u.y));
+    s.wi = sampleSphericalTriangle(half0, vec2(remapSample(x, 0.0f, half0.solidAngle), u.y));
     projectToLight(s, light, corner, position);
     s.pdf = 1.0f / whole;
     return s;

@@ -20,6 +20,7 @@ RT_FN bool isDeltaPrincipled(Features, RT_IN(Bsdf)) {
 const float kMinRoughness = 0.0316227766f; // square root of kMinAlpha
 const float kMinSheenRoughness = 0.07f;    // below it sheen would be a spark at grazing angles
 const float kCoatReflectance = 0.04f;      // of a clear coat at normal incidence
+const uint kGlassKey = 0x85ebca6bu;        // of the hash that chooses what rough glass does, any number
 
 RT_FN float fifthPower(float x) {
     return square(square(x)) * x;
@@ -185,9 +186,13 @@ RT_FN BsdfSample proposePrincipled(Features features, RT_IN(Bsdf) m, vec3 wo, ve
         vec3 h = sampleReflectionNormal(coatWo, lobes.coatAlpha, v);
         wi = fromCoat(features, lobes, h * (2.0f * dot(coatWo, h)) - coatWo);
     } else if (lobes.glassShare > 0.0f) {
-        // Of rough glass the last digits choose between reflection and refraction, since all choose the normal.
         float pick = remapSample(u.x, beyondSpecular, 1.0f);
-        float choice = isMirror(lobes.alpha) ? pick : pick * 4096.0f - floor(pick * 4096.0f);
+        // Of rough glass both numbers choose the normal. A hash of them chooses between reflection and refraction:
+        // their last digits would not, as the number that chose a lobe of a small share has few left.
+        float choice = pick;
+        if (!isMirror(lobes.alpha)) {
+            choice = toUniform(hash3(uvec3(floatBitsToUint(u.x), floatBitsToUint(u.y), kGlassKey)).x);
+        }
         vec3 h = vec3(0.0f, 0.0f, 1.0f);
         if (!isMirror(lobes.alpha)) h = sampleVisibleNormal(wo, lobes.alpha, vec2(pick, u.y));
         float c = clamp(dot(wo, h), 0.0f, 1.0f);
