@@ -62,6 +62,40 @@ SceneDesc floorInWhiteSky(const MaterialDesc& material, double cosine) {
     return desc;
 }
 
+SceneDesc ballOnFloor(HugeFloor floor, double halfSize, double x) {
+    const dvec3 up = glm::normalize(dvec3(1, 7, -2)), contact(3, -2, 5);
+    const dvec3 along = glm::normalize(glm::cross(up, dvec3(0.2, 0.3, 0.7))), across = glm::cross(along, up);
+    const dvec3 seen = contact + along * x;
+    SceneDesc desc = emptyScene(seen + along * 3.0 + up * 1.7, seen, 1e-3);
+    desc.background = ConstantBackground{dvec3(1)};
+    desc.materials["floor"] = lambertian(1);
+    desc.materials["ball"] = lambertian(0);
+    desc.objects.push_back({SphereDesc{contact + up, 1, {}, "ball"}});
+    const dvec3 u = across * (2 * halfSize), v = along * (2 * halfSize);
+    const dvec3 corner = contact - 0.47 * u - 0.52 * v;
+    if (floor == HugeFloor::Triangles) {
+        MeshData mesh;
+        mesh.positions = {corner, corner + u, corner + u + v, corner + v};
+        mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+        desc.objects.push_back({MeshDesc{mesh, "floor"}});
+    } else if (floor == HugeFloor::Quad) {
+        desc.objects.push_back({QuadDesc{corner, u, v, "floor"}});
+    } else {
+        GroupDesc group;
+        const double angle = std::acos(up.y) * 180 / pi;
+        group.transform = {Translate{{0.1 * halfSize, 0, 0.2 * halfSize}},
+                           Rotate{glm::cross(dvec3(0, 1, 0), up), angle}, Translate{contact}};
+        group.objects.push_back({BoxDesc{{-halfSize, -halfSize, -halfSize}, {halfSize, 0, halfSize}, "floor"}});
+        desc.objects.push_back({group});
+    }
+    return desc;
+}
+
+// All of the ball is above the horizon: its form factor is 1 / (1 + x^2)^(3/2).
+double skyBesideBall(double x) {
+    return 1 - std::pow(1 + x * x, -1.5);
+}
+
 MaterialDesc whiteSheen(double roughness) {
     MaterialDesc m;
     m.kind = MaterialKind::Principled;

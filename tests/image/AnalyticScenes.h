@@ -31,6 +31,12 @@ scene::MaterialDesc roughGlass(double ior, double roughness);
 
 inline constexpr double kFloorAlbedo = 0.7;
 
+// A black ball of radius 1 that stands under a sky of radiance 1 on a white floor of this half size, tilted, seen at
+// `x` from where they touch; and what is seen there.
+enum class HugeFloor { Quad, Triangles, Box };
+scene::SceneDesc ballOnFloor(HugeFloor floor, double halfSize, double x);
+double skyBesideBall(double x);
+
 // The floor y = 0 around the origin, looked at from the side, and a material "light" of radiance (3, 2, 1).
 scene::SceneDesc floorScene();
 

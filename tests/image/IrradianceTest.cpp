@@ -75,6 +75,21 @@ TEST(Irradiance, UnderATriangle) {
     expectIrradiance(desc, polygonIrradiance(triangle), "triangle");
 }
 
+// What rounds must not grow with the floor.
+TEST(Irradiance, BesideABallOnAHugeFloor) {
+    app::RenderSettings settings = smallSettings(4, 1024);
+    settings.maxDepth = 2;
+    for (const HugeFloor floor : {HugeFloor::Quad, HugeFloor::Triangles, HugeFloor::Box}) {
+        for (const double halfSize : {1e3, 1e5, 1e7}) {
+            for (const double x : {0.1, 0.3, 1.0}) {
+                const Estimate seen = render(ballOnFloor(floor, halfSize, x), settings);
+                EXPECT_NEAR(seen.mean.x / skyBesideBall(x), 1, 0.01 + 4 * seen.standardError.x / skyBesideBall(x))
+                    << "floor " << static_cast<int>(floor) << " of " << halfSize << " at " << x;
+            }
+        }
+    }
+}
+
 // Rays go through a part of a lamp, and shadow rays end before it: its samples have to know.
 TEST(Irradiance, UnderLampsThatArePartlyClear) {
     for (const ClearLamp& lamp : clearLamps()) expectIrradiance(lamp.desc, lamp.formFactor, lamp.what);

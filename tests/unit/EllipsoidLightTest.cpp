@@ -425,7 +425,7 @@ TEST(Ellipsoids, ThatShowImagesKeepTheirMap) {
     const auto needle = compiledWith(1e-5);
     EXPECT_EQ(needle->lights.size(), 0u);
     EXPECT_EQ(needle->instances.size(), 1u);
-    const std::string notice = "1 emissive spheres are scaled so unequally that light sampling leaves them out";
+    const std::string notice = "1 emissive sphere is scaled so unequally that light sampling leaves it out";
     EXPECT_EQ(std::count(needle->notices.begin(), needle->notices.end(), notice), 1);
 }
 

@@ -11,6 +11,7 @@
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/Compiler/TextureTable.h"
+#include "Common/Shared/Base/Features.h"
 #include "Common/Shared/Texture/Checker.h"
 #include "tests/unit/CompilerScenes.h"
 
@@ -136,7 +137,7 @@ TEST(SceneCompiler, MediaMapTheWorldToTheirUnitShapes) {
     EXPECT_EQ(compiled->media[1].shape, shared::kMediumSphere);
     expectNear(local(1, {3, 0, 0}), {1, 0, 0}, 1e-5);
     ASSERT_EQ(compiled->notices.size(), 1u);
-    EXPECT_EQ(compiled->notices[0], "1 media without volume or density were dropped");
+    EXPECT_EQ(compiled->notices[0], "1 medium without volume or density was dropped");
 }
 
 // ---- degenerate geometry (numerics.md N7) --------------------------------------------------------------------------
@@ -344,6 +345,21 @@ TEST(SceneCompiler, CoordinatesAreRelativeToTheCamera) {
     EXPECT_EQ(compiled->origin, glm::dvec3(278, 278, -800));
     EXPECT_EQ(compiled->globals.origin, shared::vec3(278, 278, -800));
     EXPECT_EQ(compiled->spheres[0].center, shared::vec3(530 - 278, 530 - 278, 277 + 800));
+}
+
+// Those of a file whose mode is BLEND say nothing else.
+TEST(SceneCompiler, OpacityOfVerticesIsOpacity) {
+    for (const double opacity : {1.0, 0.5}) {
+        SceneDesc scene = withMaterials();
+        scene.materials["veil"].kind = MaterialKind::Principled;
+        MeshData data;
+        data.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+        data.colors = {{1, 1, 1, 1}, {1, 1, 1, opacity}, {1, 1, 1, 1}};
+        data.triangles = {{0, 1, 2}};
+        add(scene, mesh(data, "veil"));
+        const bool letsRaysThrough = shared::has(compileScene(scene)->features, shared::kFeatureOpacity);
+        EXPECT_EQ(letsRaysThrough, opacity < 1);
+    }
 }
 
 // ---- hash ----------------------------------------------------------------------------------------------------------

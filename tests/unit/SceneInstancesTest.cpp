@@ -139,7 +139,7 @@ TEST(SceneInstances, StretchedLampsAreLightsUnlessTheyAreTakenOffTheList) {
     expectNear(compiled->lights[0].edgeV, {0, 2, 0}, 1e-6);
     EXPECT_TRUE(shared::has(compiled->features, shared::kFeatureEllipsoidLights));
     ASSERT_EQ(compiled->notices.size(), 1u);
-    EXPECT_NE(compiled->notices[0].find("1 spheres without"), std::string::npos);
+    EXPECT_NE(compiled->notices[0].find("1 sphere without"), std::string::npos);
 }
 
 TEST(SceneInstances, TurnedMapsTurn) {

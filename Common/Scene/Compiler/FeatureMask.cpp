@@ -1,5 +1,6 @@
 #include "Common/Scene/Compiler/FeatureMask.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "Common/Scene/MaterialTypes.h"
@@ -95,6 +96,10 @@ shared::Features featureMask(const CompiledScene& scene) {
             need(letsRaysThrough(scene.principled[i]), shared::kFeatureOpacity);
             need(hasCoatNormal(scene.principled[i]), shared::kFeatureCoatNormal);
         }
+    // Vertex colours have an opacity of their own, which counts for principled materials.
+    if (shared::has(mask, shared::kFeatureVertexAttributes))
+        need(std::any_of(scene.colors.begin(), scene.colors.end(), [](const shared::vec4& c) { return c.w < 1.0f; }),
+             shared::kFeatureOpacity);
     for (const shared::Texture& texture : scene.textures) mask |= ofTexture(texture);
     for (const shared::Light& light : scene.lights) mask |= ofLight(light);
     return mask;

@@ -11,6 +11,9 @@
 #include "Common/Core/SystemMemory.h"
 #include "Common/Scene/Compiler/LightTable.h"
 #include "Common/Scene/Compiler/MeshOrder.h"
+#include "Common/Scene/Compiler/NearDivision.h"
+#include "Common/Scene/Compiler/Representable.h"
+#include "Common/Scene/Counted.h"
 #include "Common/Scene/SpherePower.h"
 #include "Common/Shared/Shape/Ellipsoids.h"
 
@@ -18,23 +21,9 @@ namespace rt::scene {
 
 namespace {
 
-// Fourth powers of lengths stay finite and normal in float; what lies outside counts as degenerate.
-constexpr double kMaxCoordinate = 4e9;
 constexpr double kMinRadius = 1e-9;
-constexpr double kMinArea = 1e-18;
 constexpr std::size_t kChunk = 1u << 13;        // vertices or triangles that a thread converts at a time
 constexpr std::size_t kManyVertices = 1u << 18; // beside whose memory it is worth milliseconds to give some back
-
-bool representable(const glm::dvec3& v) {
-    return std::abs(v.x) <= kMaxCoordinate && std::abs(v.y) <= kMaxCoordinate && std::abs(v.z) <= kMaxCoordinate;
-}
-
-// Twice the vector area of the triangle of vertices as kernels see them; zero when there is none.
-glm::dvec3 doubleArea(const shared::vec3& a, const shared::vec3& b, const shared::vec3& c) {
-    const glm::dvec3 normal = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
-    const bool usable = representable(a) && representable(b) && representable(c) && glm::length(normal) >= 2 * kMinArea;
-    return usable ? normal : glm::dvec3(0);
-}
 
 // Tangents go with the surface; the bitangent turns over with a map that mirrors, as the winding does.
 shared::vec4 tangentOf(const glm::dvec4& authored, const Affine& map) {
@@ -160,7 +149,7 @@ void PrimitiveSink::sphere(const glm::dvec3& center, const glm::dvec3& motion, d
     record.center = shared::vec3(c);
     record.radius = static_cast<float>(r);
     // Of the world only: in the space of an instance the map of rays rounds by what leads from it to the world.
-    record.power = !isMoving && out_.geometries.empty() ? spherePower(c, r) : shared::kInfinity;
+    record.power = !isMoving && isInWorld() ? spherePower(c, r) : shared::kInfinity;
     record.material = materials_.index(frame.material);
     record.light = shared::kNone;
     if (isLight(record.material, frame.light))
@@ -235,8 +224,12 @@ void PrimitiveSink::quad(const glm::dvec3& corner, const glm::dvec3& u, const gl
         return;
     }
     record.material = materials_.index(material);
-    if (map.mirrors() && materials_.mayShowImage(material)) {
-        // Its front faces the mirrored way while its texture keeps its directions: no parallelogram says both.
+    const glm::dvec3 first = map.point(corner), opposite = map.point(corner + u + v);
+    const bool mustBeDivided = isInWorld() && (isHuge(first, map.point(corner + u), opposite) ||
+                                               isHuge(first, opposite, map.point(corner + v)));
+    if (mustBeDivided || (map.mirrors() && materials_.mayShowImage(material))) {
+        // Triangles: huge ones are divided further, and of a mirrored one the front faces the mirrored way while its
+        // texture keeps its directions, which no parallelogram says.
         MeshData halves;
         halves.positions = {corner, corner + u, corner + v, corner + u + v};
         halves.uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
@@ -257,9 +250,26 @@ void PrimitiveSink::quad(const glm::dvec3& corner, const glm::dvec3& u, const gl
 
 // ---- meshes --------------------------------------------------------------------------------------------------------
 
-void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at) {
+void PrimitiveSink::checkIndices(const MeshData& data, const Placement& at) const {
+    parallelChunks(0, data.triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const glm::uvec3& t = data.triangles[i];
+            const std::uint32_t last = std::max({t.x, t.y, t.z});
+            if (last >= data.positions.size())
+                throw InputError(out_.id + ": " + at.place + ": a triangle refers to vertex " + std::to_string(last) +
+                                 " of " + std::to_string(data.positions.size()));
+        }
+    });
+}
+
+void PrimitiveSink::add(const MeshData& authored, const MaterialDesc& own, bool light, const Placement& at) {
     if (isExcluded(at.part, !emits(own))) return;
     const Affine map = at.outer * at.local;
+    checkIndices(authored, at);
+    std::optional<MeshData> divided;
+    if (isInWorld())
+        divided = divideHugeTriangles(authored, map, materials_.mayShowImage(at.material ? *at.material : own));
+    const MeshData& data = divided ? *divided : authored;
     std::vector<shared::vec3> positions;
     resizeLarge(positions, data.positions.size());
     parallelChunks(0, positions.size(), kChunk, [&](std::size_t begin, std::size_t end) {
@@ -272,9 +282,6 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
         for (std::size_t i = begin; i < end; ++i) {
             interruptionPoint();
             const glm::uvec3& t = data.triangles[i];
-            if (std::max({t.x, t.y, t.z}) >= positions.size())
-                throw InputError(out_.id + ": " + at.place + ": a triangle refers to vertex " +
-                                 std::to_string(std::max({t.x, t.y, t.z})) + " of " + std::to_string(positions.size()));
             isFlat[i] = doubleArea(positions[t.x], positions[t.y], positions[t.z]) == glm::dvec3(0);
         }
     });
@@ -410,15 +417,19 @@ Bounds PrimitiveSink::finishGeometry() {
 }
 
 void PrimitiveSink::appendNotices(std::vector<std::string>& notices) const {
-    const auto note = [&](std::uint64_t count, const char* text) {
-        if (count > 0) notices.push_back(std::to_string(count) + text);
+    const auto note = [&](std::uint64_t count, const char* one, const char* many) {
+        if (count > 0) notices.push_back(counted(count, one, many));
     };
-    note(dropped_.spheres, " spheres without a usable centre or radius were dropped");
-    note(dropped_.quads, " quads without area were dropped");
-    note(dropped_.triangles, " triangles without area were dropped");
-    note(dropped_.lights, " lights without a usable position or direction were dropped");
-    note(unsampledEllipsoids_, " emissive spheres are scaled so unequally that light sampling leaves them out");
-    note(dropped_.tinySpheres, " spheres are smaller than the spacing of single-precision numbers at their place");
+    note(dropped_.spheres, "sphere without a usable centre or radius was dropped",
+         "spheres without a usable centre or radius were dropped");
+    note(dropped_.quads, "quad without area was dropped", "quads without area were dropped");
+    note(dropped_.triangles, "triangle without area was dropped", "triangles without area were dropped");
+    note(dropped_.lights, "light without a usable position or direction was dropped",
+         "lights without a usable position or direction were dropped");
+    note(unsampledEllipsoids_, "emissive sphere is scaled so unequally that light sampling leaves it out",
+         "emissive spheres are scaled so unequally that light sampling leaves them out");
+    note(dropped_.tinySpheres, "sphere is smaller than the spacing of single-precision numbers at its place",
+         "spheres are smaller than the spacing of single-precision numbers at their place");
 }
 
 } // namespace rt::scene

@@ -15,6 +15,7 @@
 #include "Common/Scene/Compiler/SpecularCasters.h"
 #include "Common/Scene/Compiler/TextureTable.h"
 #include "Common/Scene/Compiler/TexturesInUse.h"
+#include "Common/Scene/Counted.h"
 #include "Common/Scene/SpherePower.h"
 
 namespace rt::scene {
@@ -276,9 +277,11 @@ class Compiler {
         out_->notices.insert(out_->notices.end(), desc_.notices.begin(), desc_.notices.end());
         sink_.appendNotices(out_->notices);
         if (droppedMedia_ > 0)
-            out_->notices.push_back(std::to_string(droppedMedia_) + " media without volume or density were dropped");
+            out_->notices.push_back(counted(droppedMedia_, "medium without volume or density was dropped",
+                                            "media without volume or density were dropped"));
         if (droppedInstances_ > 0)
-            out_->notices.push_back(std::to_string(droppedInstances_) + " instances without volume were dropped");
+            out_->notices.push_back(counted(droppedInstances_, "instance without volume was dropped",
+                                            "instances without volume were dropped"));
     }
 
     const SceneDesc& desc_;
