@@ -84,9 +84,11 @@ struct NoiseTexture {
 };
 enum class Wrap { Clamp, Repeat, Mirror }; // what lies beyond the edges of an image
 enum class ColorSpace { Srgb, Linear };    // how the numbers of an image with 8 or 16 bits are encoded
+// Stands in for images of models that cannot be read: one texel, so that the factor beside the image counts alone.
+inline constexpr const char* kWhiteStandIn = "white";
 struct ImageTexture {
     std::string file;    // with an image number: a file of glTF that contains it
-    std::string standIn; // name of a generated map that takes over where the file is missing; empty: that is an error
+    std::string standIn; // name of what takes over where the file is missing; empty: that is an error
     glm::dvec3 tint{1, 1, 1};
     std::optional<std::uint32_t> image = std::nullopt; // its number among the images of a glTF file
     ColorSpace colorSpace = ColorSpace::Srgb;

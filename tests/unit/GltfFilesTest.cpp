@@ -1,4 +1,5 @@
 // Where the bytes of glTF are: chunks, files beside, data URIs; which of them may be missing.
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -141,6 +142,44 @@ TEST_F(GltfFiles, NamesInUris) {
     }
 }
 
+TEST_F(GltfFiles, QueriesAndFragmentsAreNoPartOfAName) {
+    for (const char* uri : {"a.bin?v=1", "a.bin#part", "a.bin?x#y", "a%2Ebin?%20"}) {
+        SCOPED_TRACE(uri);
+        EXPECT_EQ(positions(gltf.saveWithBuffer(folder / "a.gltf", uri, folder / "a.bin")), corners);
+    }
+    fs::remove(folder / "a.bin");
+    const fs::path file = gltf.saveWithBuffer(folder / "a.gltf", "a#1.bin", folder / "a#1.bin");
+    EXPECT_EQ(positions(file), corners) << "unless it is one, as programs write without escapes";
+}
+
+TEST_F(GltfFiles, NamesInOtherCaseAreFound) {
+    const fs::path file = gltf.saveWithBuffer(folder / "a.gltf", "SCENE.bin", folder / "Scene.BIN");
+    if (!fs::exists(folder / "SCENE.bin")) { // else the system takes no notice of case
+        const GltfFile read = readGltf(file);
+        ASSERT_EQ(read.notices.size(), 1u);
+        EXPECT_NE(read.notices[0].find("SCENE.bin: there is no such file; read: Scene.BIN"), std::string::npos);
+    }
+    EXPECT_EQ(positions(file), corners);
+}
+
+// Against the specification, but nothing depends on them.
+TEST_F(GltfFiles, WhatHasNoElementsMayLieUnused) {
+    const fs::path file = withBuffer("data:;base64," + kCorners);
+    json document = json::parse(contentOf(file));
+    document["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 0}});
+    document["accessors"].push_back({{"componentType", 5126}, {"count", 0}, {"type", "VEC3"}});
+    const std::size_t none = document["accessors"].size() - 1;
+    GltfBuilder::write(file, document.dump());
+    EXPECT_EQ(positions(file), corners);
+    json primitive = {{"attributes", {{"POSITION", none}, {"NORMAL", none}}}};
+    document["meshes"][0]["primitives"].push_back(primitive);
+    GltfBuilder::write(file, document.dump());
+    const SceneDesc scene = loadGltfScene(file);
+    EXPECT_EQ(std::count_if(scene.notices.begin(), scene.notices.end(),
+                            [](const std::string& n) { return n.find("1 primitive") == 0; }),
+              1);
+}
+
 TEST_F(GltfFiles, WhatIsNoRelativePathIsRefused) {
     for (const char* uri :
          {"", "/etc/a.bin", "%2Fetc/a.bin", "file:a.bin", "http://a.b/c.bin", "a%00.bin", "C:/a.bin"}) {
@@ -230,11 +269,39 @@ TEST_F(GltfMissingImages, LeaveTheFactorAlone) {
     expectFactorsAlone(material({{"uri", "data:;base64,"}}), "left out of materials: /images/0");
 }
 
+TEST_F(GltfMissingImages, AreNoneOfOtherCase) {
+    GltfBuilder::write(folder / "Wood.PNG", std::string(kPng.begin(), kPng.end()));
+    EXPECT_FALSE(material({{"uri", "wood.png"}}).emissionTexture.empty());
+    EXPECT_GT(app::compile(scene, true)->images.at(0).width, 0u);
+}
+
 TEST_F(GltfMissingImages, AreNoneOfThoseThatExist) {
     GltfBuilder::write(folder / "a+b.png", std::string(kPng.begin(), kPng.end()));
     const MaterialDesc m = material({{"uri", "a+b.png"}});
     EXPECT_FALSE(m.emissionTexture.empty());
     EXPECT_FALSE(app::compile(scene, true)->images.empty());
+}
+
+// One cannot be told from another until it is decoded, but for the notice what comes is the same.
+TEST_F(GltfMissingImages, AreAlsoThoseThatCannotBeRead) {
+    const std::string whole(kPng.begin(), kPng.end());
+    std::string noise = whole;
+    for (std::size_t i = 40; i < noise.size(); i += 3) noise[i] ^= 0x55;
+    for (const std::string& bytes : {whole.substr(0, whole.size() / 2), whole.substr(0, 20), std::string(1, 'x'),
+                                     std::string(), std::string("DDS and more than that"), noise}) {
+        GltfBuilder::write(folder / "a.png", bytes);
+        material({{"uri", "a.png"}});
+        const auto compiled = app::compile(scene, true);
+        ASSERT_FALSE(compiled->images.empty());
+        for (const shared::Image& image : compiled->images) {
+            EXPECT_EQ(image.width * image.height, 1u);
+            EXPECT_EQ(compiled->texels[image.firstTexel], 0xffffffffu);
+        }
+        const auto isSaid = [](const std::string& notice) {
+            return notice.find("a.png") != std::string::npos && notice.find("left out") != std::string::npos;
+        };
+        EXPECT_TRUE(std::any_of(compiled->notices.begin(), compiled->notices.end(), isSaid)) << bytes.size();
+    }
 }
 
 // Else a file of others would find out what exists.

@@ -93,7 +93,7 @@ TEST(GltfMalformed, EveryMistakeIsNamed) {
         {"/meshes/0/primitives/0/material", 1, "/meshes/0/primitives/0/material: 1"},
         {"/accessors/0/bufferView", 44, "/accessors/0/bufferView: 44"},
         {"/accessors/0/count", 4, "/accessors/0: its 4 elements end beyond"},
-        {"/accessors/0/count", 0, "/accessors/0/count: 0"},
+        {"/accessors/0/count", -1, "/accessors/0/count: -1"},
         {"/accessors/0/count", 1e300, "/accessors/0/count"},
         {"/accessors/0/byteOffset", 1u << 31, "/accessors/0: its 3 elements"},
         {"/accessors/0/componentType", 5124, "/accessors/0/componentType"},

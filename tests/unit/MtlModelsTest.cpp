@@ -14,6 +14,14 @@ namespace {
 
 class MtlModels : public test::MtlFolder {};
 
+TEST_F(MtlModels, ColoursOfVerticesMultiplyWhatIsUnlit) {
+    write("b.mtl", "newmtl m\nKd 0.5 0.5 0.5\nillum 0\n");
+    model = load("mtllib b.mtl\nusemtl m\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
+    EXPECT_EQ(model.parts.at(0).mesh.colors.size(), 3u);
+    EXPECT_TRUE(model.materials.at("m").principled.emitsColors);
+    EXPECT_TRUE(model.notices.empty());
+}
+
 // The eleven models of the specification, as docs/obj.md lists them.
 TEST_F(MtlModels, ModelsOfIllumination) {
     const std::string full = "Kd 0.25 0.5 0.75\nKs 0.5 0.5 0.5\nNs 250\nNi 1.25\n";

@@ -8,10 +8,19 @@
 
 namespace rt::scene {
 
+const std::vector<std::string>& imageStandInNames() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all = planetMapNames();
+        all.emplace_back(kWhiteStandIn);
+        return all;
+    }();
+    return names;
+}
+
 std::optional<std::filesystem::path> locateAsset(const std::string& file, const std::string& standIn,
                                                  const CompileOptions& options, const std::string& id,
                                                  std::vector<std::string>& notices) {
-    if (!standIn.empty() && options.generatedAssets) return std::nullopt;
+    if (!standIn.empty() && standIn != kWhiteStandIn && options.generatedAssets) return std::nullopt;
     const std::filesystem::path path(file);
     std::error_code ignored;
     if (path.is_absolute() && std::filesystem::is_regular_file(path, ignored)) return path;

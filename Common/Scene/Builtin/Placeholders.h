@@ -12,7 +12,8 @@ namespace rt::scene {
 
 // "earth", "earth-night", "mars", "venus": latitude-longitude maps, 1024 x 512, sRGB.
 const std::vector<std::string>& planetMapNames();
-TexelData makePlanetMap(const std::string& name); // one of the names
+TexelData makePlanetMap(const std::string& name);    // one of the names
+const std::vector<std::string>& imageStandInNames(); // these and kWhiteStandIn
 
 // A real map of the planet that a package of the system brought; empty: there is none.
 std::filesystem::path installedPlanetMap(const std::string& name);

@@ -8,6 +8,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Core/Parallel.h"
+#include "Common/Core/ReadFile.h"
 #include "Common/Scene/Builtin/Placeholders.h"
 #include "Common/Scene/Compiler/PerlinTable.h"
 
@@ -46,6 +47,19 @@ std::uint32_t noiseKind(NoiseKind kind) {
             break;
     }
     return shared::kTextureNoise;
+}
+
+TexelData whiteTexel() {
+    TexelData data;
+    data.width = data.height = 1;
+    data.format = shared::kTexelSrgb8;
+    data.words = {0xffffffffu};
+    return data;
+}
+
+EncodedTexels whiteInstead(const std::string& reason, std::vector<std::string>& notices) {
+    notices.push_back(reason + "; it is left out, and what it multiplies counts alone");
+    return {1, whiteTexel};
 }
 
 } // namespace
@@ -156,8 +170,24 @@ shared::Texture TextureTable::record(const TextureDesc& desc) {
     return texture;
 }
 
+EncodedTexels TextureTable::openFile(const ImageTexture& source, const std::filesystem::path& path) const {
+    if (!options_.loadTexels) throw InputError(id_ + ": " + path.string() + ": images cannot be read here");
+    return options_.loadTexels(path, source.image);
+}
+
 EncodedTexels TextureTable::open(const ImageTexture& source) {
-    std::optional<std::filesystem::path> path = locateAsset(source.file, source.standIn, options_, id_, out_.notices);
+    // Of files that must not be read nobody learns whether they exist: all are refused.
+    const bool orWhite = source.standIn == kWhiteStandIn && mayRead(source.file);
+    const std::string standIn = source.standIn == kWhiteStandIn && !orWhite ? std::string() : source.standIn;
+    std::optional<std::filesystem::path> path = locateAsset(source.file, standIn, options_, id_, out_.notices);
+    if (orWhite) {
+        if (!path) return whiteInstead(id_ + ": " + source.file + ": no such file", out_.notices);
+        try {
+            return openFile(source, *path);
+        } catch (const InputError& error) {
+            return whiteInstead(error.what(), out_.notices);
+        }
+    }
     if (!path) {
         const std::filesystem::path installed =
             options_.installedMaps ? installedPlanetMap(source.standIn) : std::filesystem::path();
@@ -166,8 +196,7 @@ EncodedTexels TextureTable::open(const ImageTexture& source) {
         if (installed.empty()) return {0, [name = source.standIn] { return makePlanetMap(name); }};
         path = installed;
     }
-    if (!options_.loadTexels) throw InputError(id_ + ": " + path->string() + ": images cannot be read here");
-    return options_.loadTexels(*path, source.image);
+    return openFile(source, *path);
 }
 
 void TextureTable::append(const ImageTexture& source, TexelData data) {
@@ -193,7 +222,6 @@ void TextureTable::append(const ImageTexture& source, TexelData data) {
 // Few at a time are decoded beside those that are done, and these take their memory once, so that all takes little more
 // than the texels do.
 void TextureTable::loadImages(const std::vector<const ImageTexture*>& sources) {
-    constexpr std::size_t kMaxAtATime = 8;
     std::vector<const ImageTexture*> images;
     std::vector<EncodedTexels> encoded;
     std::size_t count = out_.texels.size();
@@ -205,15 +233,29 @@ void TextureTable::loadImages(const std::vector<const ImageTexture*>& sources) {
         count += encoded.back().count;
     }
     if (images.size() > 1) out_.texels.reserve(count);
+    decode(images, encoded);
+}
+
+void TextureTable::decode(const std::vector<const ImageTexture*>& images, std::vector<EncodedTexels>& encoded) {
+    constexpr std::size_t kMaxAtATime = 8;
     const std::size_t atATime = std::min(threadCount(0), kMaxAtATime);
     for (std::size_t first = 0; first < images.size(); first += atATime) {
         std::vector<TexelData> decoded(std::min(atATime, images.size() - first));
+        std::vector<std::string> failures(decoded.size());
         parallelFor(0, decoded.size(), [&](std::size_t i) {
             interruptionPoint();
-            decoded[i] = encoded[first + i].decoded();
+            try {
+                decoded[i] = encoded[first + i].decoded();
+            } catch (const InputError& error) {
+                if (images[first + i]->standIn != kWhiteStandIn) throw;
+                failures[i] = error.what();
+            }
             encoded[first + i] = {};
         });
-        for (std::size_t i = 0; i < decoded.size(); ++i) append(*images[first + i], std::move(decoded[i]));
+        for (std::size_t i = 0; i < decoded.size(); ++i) {
+            if (!failures[i].empty()) decoded[i] = whiteInstead(failures[i], out_.notices).decoded();
+            append(*images[first + i], std::move(decoded[i]));
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 // Textures, images and Perlin tables of the compiled scene; each is made when something first refers to it.
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -43,6 +44,8 @@ class TextureTable {
     void findImages(const std::string& name, int depth, std::vector<const ImageTexture*>& found) const;
     void loadImages(const std::vector<const ImageTexture*>& sources);
     EncodedTexels open(const ImageTexture& source);
+    EncodedTexels openFile(const ImageTexture& source, const std::filesystem::path& path) const;
+    void decode(const std::vector<const ImageTexture*>& images, std::vector<EncodedTexels>& encoded);
     void append(const ImageTexture& source, TexelData data);
 
     const std::string id_; // of the scene, for errors

@@ -126,6 +126,7 @@ template <int N, typename Element>
 std::vector<Element> readElements(const GltfFile& file, int index, const std::vector<std::uint32_t>* elements) {
     const tinygltf::Accessor& accessor = at(file, index);
     if (accessor.type != typeOf(N)) fail(file, index, std::string("type: must be ") + nameOf(N));
+    if (accessor.count == 0) fail(file, index, "count: 0: must be at least 1, as it is read");
     std::vector<Element> values;
     resizeLarge(values, elements ? elements->size() : accessor.count, Element(0));
     const auto component = [](Element& element, int c) -> double& {

@@ -112,7 +112,6 @@ class Checker {
         });
         forEach("bufferViews", [this](const JsonNode& view) {
             const std::uint64_t end = whole(view, "byteOffset", 0) + whole(view.at("byteLength"));
-            if (whole(view.at("byteLength")) == 0) view.at("byteLength").failValue("at least 1");
             withElement(view.at("buffer"), "buffers", [&](const JsonNode& buffer) {
                 const std::uint64_t length = whole(buffer.at("byteLength"));
                 if (end > length)
@@ -125,8 +124,10 @@ class Checker {
     }
 
     // That `count` elements of `bytes` from `offset` lie within a buffer view, `stride` apart if the view says so.
+    // Against the specification there may be none, as programs write them for meshes without vertices.
     void range(const JsonNode& owner, std::uint64_t offset, std::uint64_t count, std::uint64_t bytes) const {
         withElement(owner.at("bufferView"), "bufferViews", [&](const JsonNode& view) {
+            if (count == 0) return;
             const std::uint64_t stride = whole(view, "byteStride", bytes);
             const std::uint64_t length = whole(view.at("byteLength"));
             if (count > length || offset + stride * (count - 1) + bytes > length)
@@ -165,7 +166,7 @@ class Checker {
                 accessor.at("type").oneOf({"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
             const std::uint64_t bytes = elementBytes(type, componentBytes(accessor.at("componentType")));
             const std::uint64_t count = whole(accessor.at("count"));
-            if (count == 0 || count > UINT32_MAX) accessor.at("count").failValue("from 1 to 2^32 - 1");
+            if (count > UINT32_MAX) accessor.at("count").failValue("at most 2^32 - 1");
             if (accessor.has("bufferView"))
                 range(accessor, whole(accessor, "byteOffset", 0), count, bytes);
             else if (count > kMaxImplicit)
@@ -173,7 +174,7 @@ class Checker {
             const auto sparse = accessor.find("sparse");
             if (!sparse) return;
             const std::uint64_t changed = whole(sparse->at("count"));
-            if (changed == 0 || changed > count) sparse->at("count").failValue("from 1 to the accessor's count");
+            if (changed > count) sparse->at("count").failValue("at most the accessor's count");
             const JsonNode indices = sparse->at("indices"), values = sparse->at("values");
             if (const JsonNode kind = indices.at("componentType"); componentBytes(kind) == 4 && whole(kind) != 5125)
                 kind.failValue("5121, 5123 or 5125");

@@ -111,6 +111,7 @@ class BufferReader {
     }
 
     std::uint64_t bytes() const { return bytes_; } // that were read
+    const std::vector<std::string>& notices() const { return notices_; }
 
   private:
     // Many buffers may lie in one file.
@@ -118,13 +119,24 @@ class BufferReader {
         const fs::path path = besideGltf(path_, uri);
         Content& content = files_[path];
         if (!content) {
-            content = std::make_shared<const std::vector<std::byte>>(readFile(path, kMaxGlbBytes));
+            content = std::make_shared<const std::vector<std::byte>>(readFile(present(path), kMaxGlbBytes));
             bytes_ += content->size();
         }
         return content;
     }
 
+    // The file of another case where there is none of this.
+    fs::path present(const fs::path& path) {
+        std::error_code none;
+        if (!mayRead(path) || fs::exists(path, none)) return path;
+        const fs::path other = findInOtherCase(path);
+        if (other.empty()) return path;
+        notices_.push_back(path.string() + ": there is no such file; read: " + other.filename().string());
+        return other;
+    }
+
     const fs::path& path_;
+    std::vector<std::string> notices_;
     const Content content_; // of the file itself
     std::optional<std::span<const std::byte>> chunk_;
     std::map<fs::path, Content> files_;
@@ -193,6 +205,7 @@ GltfFile readGltf(const fs::path& path) {
         if (const auto images = root.find("images"))
             images->forEachElement([&](const JsonNode& image) { file.images.push_back(readImage(image)); });
         file.bytes = reader.bytes();
+        file.notices.insert(file.notices.end(), reader.notices().begin(), reader.notices().end());
         document.erase("buffers");
         document.erase("images");
         rest = document.dump();

@@ -164,7 +164,7 @@ MeshData readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitiv
                        const std::string& place) {
     interruptionPoint();
     MeshData mesh;
-    if (!isTriangles(primitive)) return mesh;
+    if (!isTriangles(primitive) || elementCount(file, primitive, use) == 0) return mesh;
     const std::size_t count = accessorCount(file, *attribute(primitive.attributes, "POSITION"));
     std::vector<std::uint32_t> corners = readCorners(file, primitive, count, place);
     std::optional<std::vector<std::uint32_t>> used;

@@ -75,6 +75,7 @@ bool GltfTextures::locate(std::size_t index, ImageTexture& texture) {
         texture.file = path.generic_string();
         // Of files that must not be read nobody learns whether they exist: they are refused when they are decoded.
         if (!mayRead(path) || std::filesystem::exists(path, none)) return true;
+        if (!findInOtherCase(path).empty()) return true; // which the compiler of scenes takes, with a notice
     }
     missing_.insert(image.uri.empty() ? "/images/" + std::to_string(index) : '"' + printable(image.uri, 200) + '"');
     return false;
@@ -94,6 +95,7 @@ std::string GltfTextures::texture(const GltfSlot& slot, ColorSpace space, const 
     const auto image = static_cast<std::size_t>(source.source);
     ImageTexture texture;
     if (!locate(image, texture)) return {};
+    texture.standIn = kWhiteStandIn;
     texture.tint = tint;
     texture.colorSpace = space;
     texture.wrapU = texture.wrapV = Wrap::Repeat;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <system_error>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Printable.h"
+#include "Common/Core/ReadFile.h"
 
 namespace rt::scene {
 
@@ -94,13 +96,26 @@ std::vector<std::byte> bytesOfDataUri(const JsonNode& uri) {
     return bytes;
 }
 
-fs::path besideGltf(const fs::path& path, const std::string& uri) {
+namespace {
+
+fs::path fileOf(const fs::path& path, const std::string& uri) {
     const std::string text = withoutEscapes(uri);
     const fs::path name(text);
     // Roots are drives and shares, too.
     if (text.empty() || hasScheme(uri) || text.find('\0') != text.npos || name.has_root_path())
         throw InputError(path.string() + ": \"" + printable(uri, 200) + "\": must be the relative path of a file");
     return (fs::absolute(path).parent_path() / name).lexically_normal();
+}
+
+} // namespace
+
+fs::path besideGltf(const fs::path& path, const std::string& uri) {
+    const fs::path whole = fileOf(path, uri);
+    const std::size_t end = uri.find_first_of("?#", 1);
+    std::error_code none;
+    // Programs write names without escapes, too.
+    if (end == uri.npos || !mayRead(whole) || fs::exists(whole, none)) return whole;
+    return fileOf(path, uri.substr(0, end));
 }
 
 } // namespace rt::scene

@@ -15,7 +15,8 @@ bool isDataUri(std::string_view uri);
 // What a data URI holds, of any media type. Throws InputError naming file and place.
 std::vector<std::byte> bytesOfDataUri(const JsonNode& uri);
 
-// The file that a URI beside `path` names; throws InputError for what is no relative path.
+// The file that a URI beside `path` names, without query and fragment unless there is one of the whole name; throws
+// InputError for what is no relative path.
 std::filesystem::path besideGltf(const std::filesystem::path& path, const std::string& uri);
 
 } // namespace rt::scene

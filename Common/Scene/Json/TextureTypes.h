@@ -74,11 +74,13 @@ struct TextureType<ImageTexture> {
     template <typename Visit>
     static void forEachParameter(const Visit& visit) {
         visit(SceneParameter{"file", true}, &ImageTexture::file);
-        visit(SceneParameter{.name = "stand_in",
-                             .isRequired = false,
-                             .help = "a generated map for when the file is missing",
-                             .choices = planetMapNames},
-              &ImageTexture::standIn);
+        visit(
+            SceneParameter{.name = "stand_in",
+                           .isRequired = false,
+                           .help = "what takes over when the file is missing: a generated map; or white, also when it "
+                                   "cannot be read",
+                           .choices = imageStandInNames},
+            &ImageTexture::standIn);
         visit(SceneParameter{"tint", false}, &ImageTexture::tint);
         visit(SceneParameter{"image", false, "its number, where the file is one of glTF", 0, kMaxImages},
               &ImageTexture::image);

@@ -81,6 +81,7 @@ std::string MtlMaterials::texture(const MtlMap& map, const char* keyword, ColorS
     }
     ImageTexture texture;
     texture.file = fs::absolute(path).lexically_normal().generic_string();
+    texture.standIn = kWhiteStandIn;
     texture.tint = tint;
     texture.colorSpace = space;
     texture.wrapU = texture.wrapV = map.isClamped ? Wrap::Clamp : Wrap::Repeat;
@@ -183,7 +184,7 @@ MaterialDesc MtlMaterials::surface(const MtlMaterial& source) {
     return material;
 }
 
-// As bright as Kd whatever light there is: black, and emitting it.
+// As bright as Kd, times the colours of vertices, whatever light there is: black, and emitting it.
 MaterialDesc MtlMaterials::unlit(const MtlMaterial& source) {
     unlit_.insert(key_);
     MaterialDesc material;
@@ -191,6 +192,7 @@ MaterialDesc MtlMaterials::unlit(const MtlMaterial& source) {
     material.sides = Sides::Both;
     material.albedo = glm::dvec3(0);
     material.principled.specular.factor = 0;
+    material.principled.emitsColors = true;
     material.emissionTexture = texture(source.diffuseMap, "map_Kd", ColorSpace::Srgb, glm::dvec3(1));
     const bool hasMap = !material.emissionTexture.empty();
     material.emission = colorOf(source.diffuse, hasMap ? glm::dvec3(1) : std::get<glm::dvec3>(plainMaterial().albedo));

@@ -121,8 +121,7 @@ class ObjReader {
     }
 
     void addParts(const std::string& material, ObjGeometry::Triangles& triangles) {
-        const bool isTinted =
-            material.empty() || (takesVertexColors(model_.materials.at(material)) && !materials_.isUnlit(material));
+        const bool isTinted = material.empty() || takesVertexColors(model_.materials.at(material));
         if (!isTinted && geometry_.hasColors(triangles)) ++untinted_;
         const std::size_t first = model_.parts.size();
         for (MeshData& mesh : geometry_.meshes(triangles, isTinted))
@@ -203,7 +202,7 @@ class ObjReader {
         geometry_.appendColorNotices(path_, model_.notices);
         if (untinted_ > 0)
             say("the colours of vertices are left out of " + counted(untinted_, "material", "materials") +
-                ": mirrors, glass and what is not shaded take none");
+                ": mirrors and glass take none");
         if (!missingFiles_.empty()) say("material files that do not exist: " + listed(missingFiles_));
         if (!unknown_.empty()) say("materials that none of its material files has, grey instead: " + listed(unknown_));
         materials_.appendNotices();
