@@ -1,4 +1,5 @@
-// Chunks of a PNG before its pixels: length, type, data, sum. sRGB overrides all others, iCCP overrides gAMA and cHRM.
+// Chunks of a PNG before its pixels: length, type, data, sum. cICP overrides all others, then sRGB, and iCCP overrides gAMA
+// and cHRM.
 #include "Common/Image/PngColor.h"
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <sstream>
+#include <string>
 #include <string_view>
 
 #include "Common/Core/Printable.h"
@@ -49,24 +51,35 @@ std::optional<std::string> otherPrimaries(std::span<const std::byte> data) {
     return areSame(primaries, kRec709) ? std::nullopt : std::optional<std::string>("primaries of its own (cHRM)");
 }
 
+// By the numbers of ITU-T H.273 for primaries and transfer function.
+std::optional<std::string> otherSpace(std::span<const std::byte> data) {
+    constexpr std::byte kRec709Primaries{1}, kSrgbTransfer{13};
+    if (data[0] == kRec709Primaries && data[1] == kSrgbTransfer) return std::nullopt;
+    return "the colour space " + std::to_string(std::to_integer<int>(data[0])) + "/" +
+           std::to_string(std::to_integer<int>(data[1])) + " of H.273 (cICP)";
+}
+
 } // namespace
 
 std::optional<std::string> otherColorsOfPng(std::span<const std::byte> bytes) {
     if (bytes.size() < kPngSignature || std::memcmp(bytes.data(), "\x89PNG\r\n\x1a\n", kPngSignature) != 0)
         return std::nullopt;
     std::optional<std::string> profile, gamma, primaries;
+    bool isSrgb = false;
     for (std::size_t at = kPngSignature; bytes.size() - at >= kChunkHead + kChunkSum;) {
         const std::size_t length = numberAt(bytes, at);
         if (length > bytes.size() - at - kChunkHead - kChunkSum) break;
         const std::string_view type(reinterpret_cast<const char*>(&bytes[at + 4]), 4);
         const std::span<const std::byte> data = bytes.subspan(at + kChunkHead, length);
-        if (type == "sRGB") return std::nullopt;
         if (type == "IDAT") break;
+        if (type == "cICP" && data.size() == 4) return otherSpace(data);
+        if (type == "sRGB") isSrgb = true;
         if (type == "iCCP") profile = profileName(data);
         if (type == "gAMA") gamma = otherGamma(data);
         if (type == "cHRM") primaries = otherPrimaries(data);
         at += kChunkHead + length + kChunkSum;
     }
+    if (isSrgb) return std::nullopt;
     if (profile) {
         if (profile->starts_with("sRGB")) return std::nullopt;
         return "the colour profile \"" + printable(*profile, kMaxName) + "\" (iCCP)";

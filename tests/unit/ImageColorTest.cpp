@@ -205,6 +205,9 @@ TEST(ImageColor, PngThatIsNotSrgbSaysSo) {
     EXPECT_EQ(colors(linear + pngChunk("sRGB", "0")), std::nullopt);
     EXPECT_EQ(colors(pngChunk("iCCP", std::string("Display P3\0 0", 13))), "the colour profile \"Display P3\" (iCCP)");
     EXPECT_EQ(colors(linear + pngChunk("iCCP", std::string("sRGB IEC61966-2.1\0 0", 20))), std::nullopt);
+    EXPECT_EQ(colors(linear + pngChunk("cICP", std::string("\1\15\0\1", 4))), std::nullopt);
+    EXPECT_EQ(colors(pngChunk("sRGB", std::string(1, '\0')) + pngChunk("cICP", std::string("\11\20\0\1", 4))),
+              "the colour space 9/16 of H.273 (cICP)");
     EXPECT_EQ(colors(std::string("\xff\xff\xff\xffgAMA")), std::nullopt) << "a chunk beyond the end";
 }
 
