@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <istream>
 #include <locale>
 #include <optional>
 #include <ostream>
@@ -71,6 +72,7 @@ class Bytes {
     std::string line() {
         std::string text;
         for (char c = 0; (c = static_cast<char>(next())) != '\n';) text += c;
+        if (text.ends_with('\r')) text.pop_back();
         return text;
     }
     [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
@@ -81,8 +83,25 @@ class Bytes {
     std::size_t at_ = 0;
 };
 
+// A direction in which scanlines, or pixels in them, follow each other.
+struct HdrAxis {
+    bool isX = false, isForward = true; // to the right, and down
+    double length = 0;
+
+    // In the image, of the i-th.
+    std::uint32_t place(std::uint32_t i) const { return isForward ? i : static_cast<std::uint32_t>(length) - 1 - i; }
+};
+
+bool readAxis(std::istream& line, HdrAxis& axis) {
+    std::string name;
+    line >> name >> axis.length;
+    axis.isX = name == "+X" || name == "-X";
+    axis.isForward = name == "+X" || name == "-Y";
+    return line && (axis.isX || name == "+Y" || name == "-Y");
+}
+
 struct HdrHeader {
-    double width = 0, height = 0;
+    HdrAxis rows, columns;                     // as they are in the file: rows are scanlines, which may run up or down
     std::array<double, 3> factors = {1, 1, 1}; // that the radiance of each component was multiplied by
     std::optional<glm::dmat3> toRec709;        // unless the pixels are that
 };
@@ -138,8 +157,8 @@ HdrHeader readHeader(Bytes& in) {
     }
     if (isXyz) header.toRec709 = xyzToRec709();
     std::istringstream line(in.line());
-    std::string y, x;
-    if (!(line >> y >> header.height >> x >> header.width) || y != "-Y" || x != "+X")
+    line.imbue(std::locale::classic());
+    if (!readAxis(line, header.rows) || !readAxis(line, header.columns) || header.rows.isX == header.columns.isX)
         in.fail("HDR resolution is not of the form \"-Y height +X width\"");
     return header;
 }
@@ -193,12 +212,18 @@ void readRow(Bytes& in, std::vector<Rgbe>& row) {
 Image decodeHdr(std::span<const std::byte> bytes, const std::string& name) {
     Bytes in(bytes, name);
     const HdrHeader header = readHeader(in);
-    checkDimensions(name, header.width, header.height, 4 * header.width * header.height, bytes.size());
-    Image image(static_cast<std::uint32_t>(header.width), static_cast<std::uint32_t>(header.height));
-    std::vector<Rgbe> row(image.width);
-    for (std::uint32_t y = 0; y < image.height; ++y) {
+    const HdrAxis &rows = header.rows, &columns = header.columns;
+    const HdrAxis &x = rows.isX ? rows : columns, &y = rows.isX ? columns : rows;
+    checkDimensions(name, x.length, y.length, 4 * x.length * y.length, bytes.size());
+    Image image(static_cast<std::uint32_t>(x.length), static_cast<std::uint32_t>(y.length));
+    std::vector<Rgbe> row(rows.isX ? image.height : image.width);
+    for (std::uint32_t i = 0; i < (rows.isX ? image.width : image.height); ++i) {
         readRow(in, row);
-        for (std::uint32_t x = 0; x < image.width; ++x) expand(row[x], image.pixel(x, y));
+        const std::uint32_t across = rows.place(i);
+        for (std::uint32_t k = 0; k < row.size(); ++k) {
+            const std::uint32_t along = columns.place(k);
+            expand(row[k], rows.isX ? image.pixel(across, along) : image.pixel(along, across));
+        }
     }
     if (header.factors != std::array<double, 3>{1, 1, 1}) {
         for (std::size_t i = 0; i < image.data.size(); ++i)

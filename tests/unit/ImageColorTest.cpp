@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -182,6 +183,27 @@ std::string pngChunk(const std::string& type, const std::string& data) {
 std::string bigEndian(std::uint32_t value) {
     return {static_cast<char>(value >> 24), static_cast<char>(value >> 16 & 255), static_cast<char>(value >> 8 & 255),
             static_cast<char>(value & 255)};
+}
+
+// Lines end as on any system, and run as the resolution says.
+TEST(ImageColor, HdrLinesRunAsTheHeaderSays) {
+    const auto decode = [](const std::string& resolution) {
+        std::string bytes = "#?RADIANCE\r\nFORMAT=32-bit_rle_rgbe\r\n\r\n" + resolution + "\r\n";
+        for (const char mantissa : {16, 32, 48, 64, 80, 96}) bytes += std::string(3, mantissa) + '\x88';
+        const Image image = decodeHdr(std::as_bytes(std::span(bytes)), "a.hdr");
+        std::vector<int> values;
+        for (std::size_t i = 0; i < image.data.size(); i += 3) values.push_back(static_cast<int>(image.data[i]) / 16);
+        return std::pair(image.width, values);
+    };
+    using Values = std::vector<int>;
+    EXPECT_EQ(decode("-Y 2 +X 3"), std::pair(3u, Values{1, 2, 3, 4, 5, 6}));
+    EXPECT_EQ(decode("+Y 2 +X 3"), std::pair(3u, Values{4, 5, 6, 1, 2, 3}));
+    EXPECT_EQ(decode("-Y 2 -X 3"), std::pair(3u, Values{3, 2, 1, 6, 5, 4}));
+    EXPECT_EQ(decode("+X 3 -Y 2"), std::pair(3u, Values{1, 3, 5, 2, 4, 6}));
+    EXPECT_EQ(decode("-X 3 +Y 2"), std::pair(3u, Values{6, 4, 2, 5, 3, 1}));
+    EXPECT_THROW(decode("-Y 2 +Y 3"), InputError);
+    EXPECT_THROW(decode("-Z 2 +X 3"), InputError);
+    EXPECT_THROW(decode("-Y 2 +X"), InputError);
 }
 
 TEST(ImageColor, PngThatIsNotSrgbSaysSo) {
