@@ -66,7 +66,7 @@ SceneDesc ballOnFloor(HugeFloor floor, double halfSize, double x) {
     const dvec3 up = glm::normalize(dvec3(1, 7, -2)), contact(3, -2, 5);
     const dvec3 along = glm::normalize(glm::cross(up, dvec3(0.2, 0.3, 0.7))), across = glm::cross(along, up);
     const dvec3 seen = contact + along * x;
-    SceneDesc desc = emptyScene(seen + along * 3.0 + up * 1.7, seen, 1e-3);
+    SceneDesc desc = emptyScene(seen + along * 3.0 + up * (2.4 * x), seen, 1e-3);
     desc.background = ConstantBackground{dvec3(1)};
     desc.materials["floor"] = lambertian(1);
     desc.materials["ball"] = lambertian(0);
