@@ -269,6 +269,8 @@ std::vector<ClearLamp> clearLamps() {
     const double distance = glm::length(center);
     const double disk = pi * (0.64 / (distance * distance)) * center.y / distance;
     add("sphere", clearLamp(0.5), {SphereDesc{center, 0.8, {}, "light"}}, 0.75 * disk);
+    add("triangle that is clear by its vertex colours alone", clearLamp(1), {MeshDesc{triangle, "light"}},
+        0.4 * polygonIrradiance(triangle.positions));
     return lamps;
 }
 
