@@ -48,15 +48,19 @@ double longestEdge(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
 }
 
 bool exceeds(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double ratio) {
-    const double extent = longestEdge(a, b, c);
-    if (glm::length(a) > 2 * extent) return false; // as nearly all triangles of a large mesh are
+    const glm::dvec3 ab = b - a, bc = c - b, ca = a - c;
+    const double squared = std::max({glm::dot(ab, ab), glm::dot(bc, bc), glm::dot(ca, ca)});
+    if (!(glm::dot(a, a) < 4 * squared)) return false; // as nearly all triangles of a large mesh are
     if (doubleArea(shared::vec3(a), shared::vec3(b), shared::vec3(c)) == glm::dvec3(0)) return false; // to be dropped
-    return extent > ratio * distanceToTriangle(a, b, c);
+    return std::sqrt(squared) > ratio * distanceToTriangle(a, b, c);
 }
 
-// Without coordinates the place in its triangle serves as such: what the pieces have to keep.
-MeshData withPlaces(const MeshData& mesh) {
+// Without coordinates the place in its triangle, as it is wound in the end, serves as such: what the pieces have to
+// keep.
+MeshData withPlaces(const MeshData& mesh, bool isMirrored) {
     MeshData result;
+    const std::array<glm::dvec2, 3> places{glm::dvec2(0, 0), glm::dvec2(isMirrored ? 0 : 1, isMirrored ? 1 : 0),
+                                           glm::dvec2(isMirrored ? 1 : 0, isMirrored ? 0 : 1)};
     for (const glm::uvec3& t : mesh.triangles) {
         const auto first = static_cast<std::uint32_t>(result.positions.size());
         const auto append = [&t](auto& to, const auto& from) {
@@ -68,7 +72,7 @@ MeshData withPlaces(const MeshData& mesh) {
         append(result.uvs2, mesh.uvs2);
         append(result.colors, mesh.colors);
         append(result.tangents, mesh.tangents);
-        result.uvs.insert(result.uvs.end(), {{0, 0}, {1, 0}, {0, 1}});
+        result.uvs.insert(result.uvs.end(), places.begin(), places.end());
         result.triangles.push_back({first, first + 1, first + 2});
     }
     return result;
@@ -188,12 +192,8 @@ bool isHuge(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     return exceeds(a, b, c, kHugeRatio);
 }
 
-std::optional<MeshData> divideHugeTriangles(const MeshData& mesh, const Affine& map, bool showsImage) {
-    const bool any = std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const glm::uvec3& t) {
-        return isHuge(map.point(mesh.positions[t.x]), map.point(mesh.positions[t.y]), map.point(mesh.positions[t.z]));
-    });
-    if (!any) return std::nullopt;
-    return Divider(showsImage && mesh.uvs.empty() ? withPlaces(mesh) : mesh, map).run();
+MeshData divideHugeTriangles(const MeshData& mesh, const Affine& map, bool showsImage) {
+    return Divider(showsImage && mesh.uvs.empty() ? withPlaces(mesh, map.mirrors()) : mesh, map).run();
 }
 
 } // namespace rt::scene

@@ -1,8 +1,6 @@
 // Flat surfaces that are huge beside how near they pass to the origin of coordinates, which is where the camera was at
 // first: the ground, mostly.
 #pragma once
-#include <optional>
-
 #include <glm/vec3.hpp>
 
 #include "Common/Scene/Affine.h"
@@ -18,8 +16,7 @@ constexpr double kHugeRatio = 64;
 bool isHuge(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
 // The mesh with its huge triangles divided, the smaller the nearer they are to the origin of the space that `map` leads
-// to: errors then grow with distance and not with extent. Triangles that share an edge still share all of it. Nothing
-// if none is huge. `showsImage`: the pieces have to know which part of the image is theirs.
-std::optional<MeshData> divideHugeTriangles(const MeshData& mesh, const Affine& map, bool showsImage);
+// to: errors then grow with distance and not with extent. Triangles that share an edge still share all of it. `showsImage`: the pieces have to know which part of the image is theirs.
+MeshData divideHugeTriangles(const MeshData& mesh, const Affine& map, bool showsImage);
 
 } // namespace rt::scene

@@ -1,6 +1,7 @@
 #include "Common/Scene/Compiler/PrimitiveSink.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <glm/trigonometric.hpp>
@@ -250,26 +251,14 @@ void PrimitiveSink::quad(const glm::dvec3& corner, const glm::dvec3& u, const gl
 
 // ---- meshes --------------------------------------------------------------------------------------------------------
 
-void PrimitiveSink::checkIndices(const MeshData& data, const Placement& at) const {
-    parallelChunks(0, data.triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const glm::uvec3& t = data.triangles[i];
-            const std::uint32_t last = std::max({t.x, t.y, t.z});
-            if (last >= data.positions.size())
-                throw InputError(out_.id + ": " + at.place + ": a triangle refers to vertex " + std::to_string(last) +
-                                 " of " + std::to_string(data.positions.size()));
-        }
-    });
+void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at) {
+    if (isExcluded(at.part, !emits(own))) return;
+    surface(data, own, light, at, isInWorld());
 }
 
-void PrimitiveSink::add(const MeshData& authored, const MaterialDesc& own, bool light, const Placement& at) {
-    if (isExcluded(at.part, !emits(own))) return;
+void PrimitiveSink::surface(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at,
+                            bool mayBeDivided) {
     const Affine map = at.outer * at.local;
-    checkIndices(authored, at);
-    std::optional<MeshData> divided;
-    if (isInWorld())
-        divided = divideHugeTriangles(authored, map, materials_.mayShowImage(at.material ? *at.material : own));
-    const MeshData& data = divided ? *divided : authored;
     std::vector<shared::vec3> positions;
     resizeLarge(positions, data.positions.size());
     parallelChunks(0, positions.size(), kChunk, [&](std::size_t begin, std::size_t end) {
@@ -278,13 +267,22 @@ void PrimitiveSink::add(const MeshData& authored, const MaterialDesc& own, bool 
 
     const WoundTriangles triangles{data.triangles, map.mirrors()};
     std::vector<std::uint8_t> isFlat(data.triangles.size());
+    std::atomic<bool> mustBeDivided = false;
     parallelChunks(0, isFlat.size(), kChunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             interruptionPoint();
             const glm::uvec3& t = data.triangles[i];
+            if (std::max({t.x, t.y, t.z}) >= positions.size())
+                throw InputError(out_.id + ": " + at.place + ": a triangle refers to vertex " +
+                                 std::to_string(std::max({t.x, t.y, t.z})) + " of " + std::to_string(positions.size()));
             isFlat[i] = doubleArea(positions[t.x], positions[t.y], positions[t.z]) == glm::dvec3(0);
+            if (mayBeDivided && isHuge(positions[t.x], positions[t.y], positions[t.z])) mustBeDivided = true;
         }
     });
+    if (mustBeDivided) {
+        const bool showsImage = materials_.mayShowImage(at.material ? *at.material : own);
+        return surface(divideHugeTriangles(data, map, showsImage), own, light, at, false);
+    }
     std::vector<std::uint32_t> order; // of those that are kept
     reserveLarge(order, data.triangles.size());
     for (std::uint32_t i = 0; i < data.triangles.size(); ++i)

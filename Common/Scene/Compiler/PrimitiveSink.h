@@ -71,8 +71,8 @@ class PrimitiveSink {
     void ellipsoid(Affine toWorld, const SphereFrame& frame);
     void quad(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, const MaterialDesc& material,
               bool light, const Affine& map);
+    void surface(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at, bool mayBeDivided);
     const MaterialDesc& materialOf(const std::string& name, const Placement& at) const;
-    void checkIndices(const MeshData& data, const Placement& at) const;
     bool isInWorld() const { return out_.geometries.empty(); } // what is filled now: the geometry without instances
     bool isLight(std::uint32_t material, bool wanted) const;
     std::uint32_t appendLight(shared::Light light, std::uint32_t material);
