@@ -1,5 +1,5 @@
-// Chunks of a PNG before its pixels: length, type, data, sum. cICP overrides all others, then sRGB, and iCCP overrides gAMA
-// and cHRM.
+// Chunks of a PNG before its pixels: length, type, data, sum. cICP overrides all others, then sRGB, and iCCP overrides
+// gAMA and cHRM.
 #include "Common/Image/PngColor.h"
 
 #include <algorithm>

@@ -16,7 +16,8 @@ constexpr double kHugeRatio = 64;
 bool isHuge(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
 // The mesh with its huge triangles divided, the smaller the nearer they are to the origin of the space that `map` leads
-// to: errors then grow with distance and not with extent. Triangles that share an edge still share all of it. `showsImage`: the pieces have to know which part of the image is theirs.
+// to: errors then grow with distance and not with extent. Triangles that share an edge still share all of it.
+// `showsImage`: the pieces have to know which part of the image is theirs.
 MeshData divideHugeTriangles(const MeshData& mesh, const Affine& map, bool showsImage);
 
 } // namespace rt::scene
