@@ -111,8 +111,9 @@ class TileFilter {
         kVariance,
         kGuide,
         kRadiance = kGuide + 3,
-        kFeatures = kRadiance + 3,
-        kPlanes = kFeatures + kDenoiseFeatures
+        kInside = kRadiance + 3,
+        kFeatures,
+        kPlanes = kFeatures + kDenoiseSurfaceFeatures
     };
 
     bool isInside(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
@@ -128,10 +129,16 @@ class TileFilter {
     }
 
     const float* load(int index, const Plane& from) {
+        const int x0 = std::max(left_ - kDenoiseMargin, 0),
+                  x1 = std::min(left_ + kDenoiseTile + kDenoiseMargin, width_);
         float* to = plane(index);
-        forEachPixel([&](int place, int x, int y) {
-            to[place] = isInside(x, y) ? from.row(static_cast<std::size_t>(y))[x] : 0.0f;
-        });
+        std::fill_n(to, kDenoisePlane, 0.0f);
+        for (int row = 0; row < kDenoiseRows; ++row) {
+            const int y = top_ + row - kDenoiseMargin;
+            if (y < 0 || y >= height_) continue;
+            std::copy_n(from.row(static_cast<std::size_t>(y)) + x0, x1 - x0,
+                        to + row * kDenoisePitch + x0 - left_ + kDenoiseMargin);
+        }
         return to;
     }
 
@@ -141,23 +148,20 @@ class TileFilter {
             if (isInside(x, y)) inReach_.push_back(featuresAt(x, y));
         });
         const FeatureSpace space = principalFeatures(inReach_);
-        tile.featureCount = 3 + static_cast<int>(space.axes.size());
+        tile.featureCount = static_cast<int>(space.axes.size());
         for (int i = 0; i < tile.featureCount; ++i) tile.features[i] = plane(kFeatures + i);
+        tile.inside = plane(kInside);
         forEachPixel([&](int place, int x, int y) {
             const bool inside = isInside(x, y);
-            plane(kFeatures)[place] = inside ? 1.0f : 0.0f;
-            plane(kFeatures + 1)[place] = inside ? coordinate(x - left_) : 0.0f;
-            plane(kFeatures + 2)[place] = inside ? coordinate(y - top_) : 0.0f;
+            plane(kInside)[place] = inside ? 1.0f : 0.0f;
             for (std::size_t axis = 0; axis < space.axes.size(); ++axis)
-                plane(kFeatures + 3 + static_cast<int>(axis))[place] =
+                plane(kFeatures + static_cast<int>(axis))[place] =
                     inside ? space.coordinate(featuresAt(x, y), axis) : 0.0f;
         });
     }
     const SurfaceFeatures& featuresAt(int x, int y) const {
         return features_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
     }
-    // Small, as the surface's features are.
-    static float coordinate(int pixel) { return 0.1f * static_cast<float>(pixel - kDenoiseTile / 2); }
 
     void keep(const DenoiseTile& tile, std::size_t half) const {
         for (std::size_t i = 0; i < kDenoiseBandwidths; ++i) {

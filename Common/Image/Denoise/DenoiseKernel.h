@@ -14,25 +14,25 @@ inline constexpr int kDenoisePitch = kDenoiseRows + 10;                         
 inline constexpr int kDenoisePlane = kDenoiseRows * kDenoisePitch;                        // floats
 inline constexpr int kDenoiseOrigin = kDenoiseMargin * kDenoisePitch + kDenoiseMargin;    // tile's first pixel
 inline constexpr int kDenoiseOffsets = (2 * shared::kDenoiseReach + 1) * (2 * shared::kDenoiseReach + 1);
-inline constexpr int kDenoiseSurfaceFeatures =
-    4; // at most: more were measured to gain 1 % and to cost a third of the time
-inline constexpr int kDenoiseFeatures = 3 + kDenoiseSurfaceFeatures; // with 1 and both coordinates
+// At most: more were measured to gain 1 % and to cost a third of the time.
+inline constexpr int kDenoiseSurfaceFeatures = 4;
 static_assert(kDenoisePitch % 8 == 0);
 
-// One tile of one half. A plane has kDenoisePlane values: the tile with its margin, row by row, and eight floats more may
-// be read beyond its end.
+// One tile of one half. A plane has kDenoisePlane values: the tile with its margin, row by row, and eight floats more
+// may be read beyond its end.
 struct DenoiseTile {
     int rows = 0, columns = 0;       // of pixels to filter, at most kDenoiseTile each
     const float* guide[3] = {};      // tones of the other half; anything outside of the image
     const float* variance = nullptr; // of these, summed over the channels
-    // What radiance is taken for a linear function of: 1, the coordinates, features of the surface. The first, and all
-    // after it, is 0 outside of the image.
-    int featureCount = 0; // from 3
-    const float* features[kDenoiseFeatures] = {};
+    const float* inside = nullptr;   // 1 inside of the image, 0 elsewhere
+    // What radiance is taken for a linear function of, besides coordinates: features of the surface; 0 outside of the
+    // image.
+    int featureCount = 0;
+    const float* features[kDenoiseSurfaceFeatures] = {};
     const float* radiance[3] = {};                       // of this half; 0 outside of the image
     float* filtered[shared::kDenoiseBandwidths][3] = {}; // kDenoiseTile x kDenoiseTile each
-    // By which a pixel's own radiance enters what is fitted there, and the sum of those of the others in its square of 2x2
-    // where their noise may be like its own. The same size.
+    // By which a pixel's own radiance enters what is fitted there, and the sum of those of the others in its square of
+    // 2x2 where their noise may be like its own. The same size.
     float* ownFactor[shared::kDenoiseBandwidths] = {};
     float* partnerFactor[shared::kDenoiseBandwidths] = {};
     std::uint32_t dependentSide = 1; // 2: the noise of pixels of such a square may be alike
@@ -40,11 +40,11 @@ struct DenoiseTile {
 };
 
 // Distances of the rows that a patch needs, a ring per offset; mean distances of the patches of one row for both patch
-// sizes; weights of eight pixels.
+// sizes; weights of eight pixels, and these times a coordinate.
 inline constexpr int kDenoiseRing = 2 * shared::kDenoisePatchReach + 1;                     // rows
 inline constexpr int kDenoiseDistances = kDenoiseTile + 2 * shared::kDenoisePatchReach + 2; // columns
 inline constexpr std::size_t kDenoiseScratch =
-    std::size_t{kDenoiseOffsets} * (kDenoiseRing * kDenoiseDistances + 2 * kDenoiseTile + 8);
+    std::size_t{kDenoiseOffsets} * (kDenoiseRing * kDenoiseDistances + 2 * kDenoiseTile + 2 * 8);
 static_assert(kDenoiseDistances % 8 == 0);
 
 using DenoiseKernel = void (*)(const DenoiseTile&);

@@ -40,14 +40,21 @@ Matrix diagonalize(Matrix& a) {
     return vectors;
 }
 
+// Sums in float, whole rows of eight at a time, are what vectors do; their rounding is far below kMinVariance.
 Matrix covariance(const std::vector<SurfaceFeatures>& pixels, const SurfaceFeatures& mean) {
-    Matrix sums{};
-    for (const SurfaceFeatures& pixel : pixels)
+    constexpr std::size_t kPadded = 8;
+    static_assert(kSide <= kPadded);
+    float sums[kSide][kPadded] = {};
+    for (const SurfaceFeatures& pixel : pixels) {
+        float from[kPadded] = {};
+        for (std::size_t i = 0; i < kSide; ++i) from[i] = pixel[i] - mean[i];
         for (std::size_t i = 0; i < kSide; ++i)
-            for (std::size_t j = 0; j <= i; ++j) sums[i][j] += double{pixel[i] - mean[i]} * double{pixel[j] - mean[j]};
+            for (std::size_t j = 0; j < kPadded; ++j) sums[i][j] += from[i] * from[j];
+    }
+    Matrix result{};
     for (std::size_t i = 0; i < kSide; ++i)
-        for (std::size_t j = 0; j <= i; ++j) sums[j][i] = sums[i][j] /= static_cast<double>(pixels.size());
-    return sums;
+        for (std::size_t j = 0; j < kSide; ++j) result[i][j] = double{sums[i][j]} / static_cast<double>(pixels.size());
+    return result;
 }
 
 } // namespace

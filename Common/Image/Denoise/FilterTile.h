@@ -1,47 +1,33 @@
-// The denoiser's kernel: first-order regression after Bitterli et al. 2016, "Nonlinearly Weighted First-order Regression
-// for Denoising Monte Carlo Renderings". Around each pixel of a half, radiance is fitted by a linear function of features,
-// by weighted least squares; what the function is at the pixel replaces its radiance.
+// The denoiser's kernel: first-order regression after Bitterli et al. 2016, "Nonlinearly Weighted First-order
+// Regression for Denoising Monte Carlo Renderings". Around each pixel of a half, radiance is fitted by a linear
+// function of features, by weighted least squares; what the function is at the pixel replaces its radiance.
 // Included by one translation unit per instruction set; everything here has internal linkage.
 #pragma once
 #include <cstdint>
-#include <cstring>
 
 #include "Common/Image/Denoise/DenoiseKernel.h"
 #include "Common/Image/Denoise/Float8.h"
+#include "Common/Image/Denoise/WeightedSums.h"
 
 namespace rt::image {
 namespace {
 
 using shared::kDenoisePatchReach;
-using shared::kDenoiseReach;
 using shared::uint;
 
 constexpr float kRidge = 1.0e-3f; // of the sum of weights: a feature that varies by much less has no say
 constexpr float kTiny = 1.0e-6f;  // keeps the system regular where nothing varies
 
-// From a pixel to those in reach, row by row, in a plane.
-struct Steps {
-    int at[kDenoiseOffsets];
-    constexpr Steps() : at() {
-        int offset = 0;
-        for (int dy = -kDenoiseReach; dy <= kDenoiseReach; ++dy)
-            for (int dx = -kDenoiseReach; dx <= kDenoiseReach; ++dx) at[offset++] = dy * kDenoisePitch + dx;
-    }
-};
-constexpr Steps kSteps;
-
 // The parts of DenoiseTile::scratch.
 struct Scratch {
     float* ring;    // [offset][row mod kDenoiseRing][column]: distances of pixels
     float* patches; // [patch size][column / 8][offset][lane]: mean distances of the patches of the row at hand
-    float* weights; // [place][lane]: of eight pixels, where one of them has any
-    int* places;    // what these are the weights of, in a plane
+    float* weights; // Reach::weights
 
-    Scratch(float* memory, int* placeMemory)
+    explicit Scratch(float* memory)
         : ring(memory),
           patches(ring + kDenoiseOffsets * kDenoiseRing * kDenoiseDistances),
-          weights(patches + 2 * kDenoiseOffsets * kDenoiseTile),
-          places(placeMemory) {}
+          weights(patches + 2 * kDenoiseOffsets * kDenoiseTile) {}
 
     float* rowOfRing(int offset, int row) const {
         return ring + (offset * kDenoiseRing + (row + kDenoiseRing) % kDenoiseRing) * kDenoiseDistances;
@@ -55,6 +41,9 @@ RT_CALL void measureRow(const DenoiseTile& tile, int row, int offset, float* dis
     const float *r0 = tile.guide[0] + from, *g0 = tile.guide[1] + from, *b0 = tile.guide[2] + from;
     const float *r1 = tile.guide[0] + to, *g1 = tile.guide[1] + to, *b1 = tile.guide[2] + to;
     const float *v0 = tile.variance + from, *v1 = tile.variance + to;
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC ivdep
+#endif
     for (int i = 0; i < kDenoiseDistances; ++i) {
         const float r = r0[i] - r1[i], g = g0[i] - g1[i], b = b0[i] - b1[i];
         distances[i] = shared::denoiseDistance(r * r + g * g + b * b, v0[i], v1[i]);
@@ -87,52 +76,6 @@ RT_CALL void averagePatches(const float* const (&ring)[kDenoiseRing], float* sma
 }
 static_assert(kDenoiseRing == 7);
 
-// Weights of what eight pixels have in reach, by the mean distances of their patches; returns how many offsets have any.
-RT_CALL int weigh(const float* patches, float perSquaredBandwidth, int first, Scratch scratch) {
-    float weights[kDenoiseOffsets * kLaneCount];
-    for (int i = 0; i < kDenoiseOffsets * kLaneCount; ++i)
-        weights[i] = shared::denoiseWeight(patches[i], perSquaredBandwidth);
-    int count = 0;
-    for (int offset = 0; offset < kDenoiseOffsets; ++offset) {
-        std::uint64_t bits[kLaneCount / 2];
-        std::memcpy(bits, weights + offset * kLaneCount, sizeof bits);
-        store(scratch.weights + count * kLaneCount, load(weights + offset * kLaneCount));
-        scratch.places[count] = first + kSteps.at[offset];
-        count += (bits[0] | bits[1] | bits[2] | bits[3]) != 0 ? 1 : 0;
-    }
-    return count;
-}
-
-// A row of the normal equations: sums over what eight pixels have in reach of weight x feature `kRow` x each later feature
-// and each channel.
-template <int kRow, int kCount>
-RT_CALL void sumRow(const DenoiseTile& tile, Scratch scratch, int places, Float8 (&products)[kCount][kCount],
-                    Float8 (&radiance)[kCount][3]) {
-    Float8 sums[kCount - kRow], channels[3] = {broadcast(0), broadcast(0), broadcast(0)};
-    const float* features[kCount - kRow];
-    for (int i = 0; i < kCount - kRow; ++i) {
-        sums[i] = broadcast(0);
-        features[i] = tile.features[kRow + i];
-    }
-    const float *red = tile.radiance[0], *green = tile.radiance[1], *blue = tile.radiance[2];
-    for (int k = 0; k < places; ++k) {
-        const int place = scratch.places[k];
-        const Float8 own = load(features[0] + place);
-        const Float8 weighed = load(scratch.weights + k * kLaneCount) * own;
-        sums[0] = multiplyAdd(weighed, own, sums[0]);
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC unroll 10
-#endif
-        for (int i = 1; i < kCount - kRow; ++i) sums[i] = multiplyAdd(weighed, load(features[i] + place), sums[i]);
-        channels[0] = multiplyAdd(weighed, load(red + place), channels[0]);
-        channels[1] = multiplyAdd(weighed, load(green + place), channels[1]);
-        channels[2] = multiplyAdd(weighed, load(blue + place), channels[2]);
-    }
-    for (int i = 0; i < kCount - kRow; ++i) products[kRow + i][kRow] = sums[i];
-    for (int c = 0; c < 3; ++c) radiance[kRow][c] = channels[c];
-    if constexpr (kRow + 1 < kCount) sumRow<kRow + 1, kCount>(tile, scratch, places, products, radiance);
-}
-
 // Of a symmetric positive definite system, given by its lower triangle: L D L^T, with L in its place and 1 / D.
 template <int kCount>
 RT_FN void factorize(Float8 (&a)[kCount][kCount], Float8 (&inverse)[kCount]) {
@@ -162,10 +105,9 @@ RT_FN void solve(const Float8 (&l)[kCount][kCount], const Float8 (&inverse)[kCou
 
 // Where eight pixels are, what they have in reach, and where their results go.
 struct Eight {
-    int first;  // in a plane
-    int pixel;  // in the planes that are written
-    int row;    // of the tile
-    int places; // of Scratch
+    int first; // in a plane
+    int pixel; // in the planes that are written
+    int row;   // of the tile
     uint candidate;
 };
 
@@ -174,8 +116,8 @@ RT_FN int partner(int step, int at) {
     return step == 0 ? 0 : 1 - 2 * (at & 1);
 }
 
-// Adds to `factors` that by which the radiance of eight pixels, each so many steps from one of the eight that are fitted, enters the
-// fit. `solution`: inverse of the products . features at the pixel that is fitted.
+// Adds to `factors` that by which the radiance of eight pixels, each so many steps from one of the eight that are
+// fitted, enters the fit. `solution`: inverse of the products . features at the pixel that is fitted.
 template <int kCount>
 RT_CALL void addFactor(const DenoiseTile& tile, const Eight& eight, const float* patches, int stepAcross, int stepDown,
                        const Float8 (&solution)[kCount], Float8& factors) {
@@ -184,9 +126,13 @@ RT_CALL void addFactor(const DenoiseTile& tile, const Eight& eight, const float*
     float weights[kLaneCount], features[kCount][kLaneCount];
     for (int lane = 0; lane < kLaneCount; ++lane) {
         const int across = partner(stepAcross, lane), place = eight.first + lane + down * kDenoisePitch + across;
-        const int offset = (down + kDenoiseReach) * (2 * kDenoiseReach + 1) + across + kDenoiseReach;
-        weights[lane] = shared::denoiseWeight(patches[offset * kLaneCount + lane], perSquaredBandwidth);
-        for (int i = 0; i < kCount; ++i) features[i][lane] = tile.features[i][place];
+        const int offset = (down + kDenoiseReach) * kDenoiseRowOffsets + across + kDenoiseReach;
+        weights[lane] =
+            tile.inside[place] * shared::denoiseWeight(patches[offset * kLaneCount + lane], perSquaredBandwidth);
+        features[0][lane] = 1;
+        features[1][lane] = kPerPixel * static_cast<float>(across);
+        features[2][lane] = kPerPixel * static_cast<float>(down);
+        for (int i = kCoordinates; i < kCount; ++i) features[i][lane] = tile.features[i - kCoordinates][place];
     }
     Float8 fit = broadcast(0);
     for (int i = 0; i < kCount; ++i) fit = multiplyAdd(solution[i], load(features[i]), fit);
@@ -196,14 +142,15 @@ RT_CALL void addFactor(const DenoiseTile& tile, const Eight& eight, const float*
 // What is fitted at a pixel is a sum over those in reach of weight x (features at the pixel . inverse of the products .
 // features there) x radiance: one system serves all channels.
 template <int kCount>
-RT_CALL void regress(const DenoiseTile& tile, Scratch scratch, const Eight& eight, const float* patches) {
+RT_CALL void regress(const DenoiseTile& tile, const Reach& reach, const Eight& eight, const float* patches) {
     Float8 products[kCount][kCount], radiance[kCount][3], inverse[kCount], solution[kCount];
-    sumRow<0, kCount>(tile, scratch, eight.places, products, radiance);
+    sumProducts<kCount>(tile, reach, products, radiance);
     products[0][0] = products[0][0] + broadcast(kTiny);
     for (int i = 1; i < kCount; ++i)
         products[i][i] = products[i][i] + multiplyAdd(broadcast(kRidge), products[0][0], broadcast(kTiny));
     factorize(products, inverse);
-    for (int i = 0; i < kCount; ++i) solution[i] = load(tile.features[i] + eight.first);
+    for (int i = 0; i < kCoordinates; ++i) solution[i] = broadcast(i == 0 ? 1.0f : 0.0f);
+    for (int i = kCoordinates; i < kCount; ++i) solution[i] = load(tile.features[i - kCoordinates] + eight.first);
     solve(products, inverse, solution);
     for (int c = 0; c < 3; ++c) {
         Float8 value = broadcast(0);
@@ -220,21 +167,21 @@ RT_CALL void regress(const DenoiseTile& tile, Scratch scratch, const Eight& eigh
     store(tile.partnerFactor[eight.candidate] + eight.pixel, partners);
 }
 
-RT_CALL void regress(const DenoiseTile& tile, Scratch scratch, const Eight& eight, const float* patches) {
+RT_CALL void regress(const DenoiseTile& tile, const Reach& reach, const Eight& eight, const float* patches) {
     switch (tile.featureCount) {
+        case 0:
+            return regress<3>(tile, reach, eight, patches);
+        case 1:
+            return regress<4>(tile, reach, eight, patches);
+        case 2:
+            return regress<5>(tile, reach, eight, patches);
         case 3:
-            return regress<3>(tile, scratch, eight, patches);
-        case 4:
-            return regress<4>(tile, scratch, eight, patches);
-        case 5:
-            return regress<5>(tile, scratch, eight, patches);
-        case 6:
-            return regress<6>(tile, scratch, eight, patches);
+            return regress<6>(tile, reach, eight, patches);
         default:
-            return regress<7>(tile, scratch, eight, patches);
+            return regress<7>(tile, reach, eight, patches);
     }
 }
-static_assert(kDenoiseFeatures == 7);
+static_assert(kDenoiseSurfaceFeatures == 4);
 
 // Mean distances of patches: for each eight pixels of the row, by offset.
 RT_CALL void averageRow(Scratch scratch, int row) {
@@ -247,8 +194,9 @@ RT_CALL void averageRow(Scratch scratch, int row) {
 }
 
 void filterTile(const DenoiseTile& tile) {
-    int places[kDenoiseOffsets];
-    const Scratch scratch(tile.scratch, places);
+    const Scratch scratch(tile.scratch);
+    Reach reach;
+    reach.weights = scratch.weights;
     const auto measure = [&](int row) {
         for (int offset = 0; offset < kDenoiseOffsets; ++offset)
             measureRow(tile, row, offset, scratch.rowOfRing(offset, row));
@@ -262,8 +210,8 @@ void filterTile(const DenoiseTile& tile) {
             for (std::uint32_t i = 0; i < shared::kDenoiseBandwidths; ++i) {
                 const int size = shared::denoiseBandwidth(i).patchReach == 1 ? 0 : 1;
                 const float* patches = scratch.patches + (size * kDenoiseTile + column) * kDenoiseOffsets;
-                const int places = weigh(patches, shared::denoisePerSquaredBandwidth(i), first, scratch);
-                regress(tile, scratch, {first, row * kDenoiseTile + column, row, places, i}, patches);
+                weigh(tile, patches, shared::denoisePerSquaredBandwidth(i), first, reach);
+                regress(tile, reach, {first, row * kDenoiseTile + column, row, i}, patches);
             }
         }
     }

@@ -31,7 +31,11 @@ RT_FN Float8 broadcast(float x) {
     return Float8{x, x, x, x, x, x, x, x};
 }
 RT_FN Float8 maximum(Float8 a, Float8 b) {
+#if defined(__FMA__) && defined(__AVX__)
+    return _mm256_max_ps(a, b);
+#else
     return a > b ? a : b;
+#endif
 }
 
 #else
@@ -89,6 +93,18 @@ RT_FN Float8 negateMultiplyAdd(Float8 a, Float8 b, Float8 c) {
     return _mm256_fnmadd_ps(a, b, c);
 #else
     return c - a * b;
+#endif
+}
+// Of numbers from 0 on.
+RT_FN bool isAnyPositive(Float8 a) {
+#if defined(__GNUC__) && defined(__FMA__) && defined(__AVX__)
+    return _mm256_testz_si256(_mm256_castps_si256(a), _mm256_castps_si256(a)) == 0;
+#else
+    float lanes[kLaneCount];
+    store(lanes, a);
+    float largest = 0;
+    for (const float lane : lanes) largest = lane > largest ? lane : largest;
+    return largest > 0;
 #endif
 }
 
