@@ -30,6 +30,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using image::Film;
 
+// Of what is wanted; null elsewhere.
+float* planeRow(image::Image& image, std::uint32_t y) {
+    return image.data.empty() ? nullptr : image.pixel(0, y);
+}
+
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -168,19 +173,17 @@ class CpuEngine final : public app::Engine {
     const image::Film& film() override { return film_; }
 
     app::AovImages renderAovs(const app::AovRequest& request, std::uint32_t samples) override {
-        const std::uint32_t width = settings_.width;
-        const std::uint32_t height = request.rows > 0 ? request.rows : settings_.height;
-        app::AovImages images;
-        if (request.albedo) images.albedo = image::Image(width, height, 3);
-        if (request.normal) images.normal = image::Image(width, height, 3);
-        if (request.depth) images.depth = image::Image(width, height, 1);
+        app::AovImages images = app::makeAovImages(request, settings_.width, settings_.height);
+        const std::uint32_t rows = request.rows > 0 ? request.rows : settings_.height;
+        const auto planes = [](app::SurfaceImages& of, std::uint32_t y) {
+            return SurfacePlanes{planeRow(of.albedo, y), planeRow(of.normal, y), planeRow(of.depth, y)};
+        };
         std::atomic<std::uint32_t> nextRow{0};
         runWorkers(policy_, threads_, [&](std::uint32_t) {
-            for (std::uint32_t y = nextRow.fetch_add(1, std::memory_order_relaxed); y < height;
+            for (std::uint32_t y = nextRow.fetch_add(1, std::memory_order_relaxed); y < rows;
                  y = nextRow.fetch_add(1, std::memory_order_relaxed)) {
-                const AovTask task{request.firstRow + y, samples, request.albedo ? images.albedo.pixel(0, y) : nullptr,
-                                   request.normal ? images.normal.pixel(0, y) : nullptr,
-                                   request.depth ? images.depth.pixel(0, y) : nullptr};
+                const AovTask task{request.firstRow + y, samples, planes(images, y), planes(images.wide, y),
+                                   planeRow(images.emission, y)};
                 kernel_->renderAovs(context_, task);
             }
         });

@@ -56,13 +56,20 @@ struct TileTask {
 
 inline constexpr std::uint32_t kBatchSamples = 1024; // of all tasks that a kernel is given at a time: a block of a tile
 
-// First-hit features of one row, averaged over samples 0 .. count - 1; null planes are not computed.
-struct AovTask {
-    std::uint32_t y = 0;
-    std::uint32_t count = 0;
+// Where a row's features of surfaces go; null planes are not wanted.
+struct SurfacePlanes {
     float* albedo = nullptr; // RGB a pixel of the row
     float* normal = nullptr;
     float* depth = nullptr; // one a pixel
+    bool isWanted() const { return albedo != nullptr || normal != nullptr || depth != nullptr; }
+};
+
+// Features of one row, averaged over samples 0 .. count - 1: see Common/Shared/Path/SeenSurfaces.h.
+struct AovTask {
+    std::uint32_t y = 0;
+    std::uint32_t count = 0;
+    SurfacePlanes first, wide;
+    float* emission = nullptr; // RGB a pixel; null: not wanted
 };
 
 struct KernelContext {

@@ -2,6 +2,7 @@
 // instruction set; all it defines has internal linkage.
 #pragma once
 #include "Common/Image/Film.h"
+#include "Common/Shared/Path/SeenSurfaces.h"
 #include "RayTracingCPU/PathPacket.h"
 
 namespace rt::cpu {
@@ -47,34 +48,40 @@ bool renderTiles(const KernelContext& context, std::span<const TileTask> tasks, 
     return true;
 }
 
-// Not worth a specialisation: one first hit a sample.
+// Writes one of the row's planes, unless it is not wanted.
+inline void keepFeature(float* plane, std::uint32_t x, vec3 value) {
+    if (plane == nullptr) return;
+    for (int c = 0; c < 3; ++c) plane[3 * x + static_cast<std::uint32_t>(c)] = value[c];
+}
+inline void keepFeatures(const SurfacePlanes& planes, std::uint32_t x, const SurfaceSums& sums, float scale) {
+    keepFeature(planes.albedo, x, sums.albedo * scale);
+    keepFeature(planes.normal, x, sums.normal * scale);
+    if (planes.depth != nullptr) planes.depth[x] = meanDepth(sums);
+}
+
+// Not worth a specialisation: one first hit a sample, or few more.
 void renderAovs(const KernelContext& context, const AovTask& task) {
     constexpr Features kFeatures = kFeatureAll;
     const CpuScene& scene = *context.scene;
+    const bool looksThrough = task.wide.isWanted() || task.emission != nullptr;
     for (std::uint32_t x = 0; x < context.params.width; ++x) {
-        vec3 albedo(0.0f), normal(0.0f);
-        float depth = 0.0f;
-        std::uint32_t hits = 0;
+        SeenSurfaces seen = nothingSeen();
         Sampler smp = makeSampler(context.params, task.y * context.params.width + x, 0u, 0u);
         for (; smp.index < task.count; ++smp.index) {
             const uvec2 pixel(x, task.y);
-            const Ray ray = cameraRay(kFeatures, context.params, context.camera, pixel, cameraSamples(kFeatures, smp));
-            const Hit hit = traceRay<kFeatures>(scene, smp, 0u, ray);
-            if (hit.t < 0.0f) continue;
-            const Surface surface = makeSurface(kFeatures, scene, ray, hit);
-            const Material material = loadMaterial(scene, surface.material);
-            albedo += surfaceAlbedo(kFeatures, scene, material, surface);
-            normal += dot(ray.direction, surface.normal) < 0.0f ? surface.shading : -surface.shading;
-            depth += hit.t;
-            ++hits;
+            PathState path =
+                startPath(cameraRay(kFeatures, context.params, context.camera, pixel, cameraSamples(kFeatures, smp)));
+            float length = 0;
+            while (seeSurface(kFeatures, scene, context.params, smp,
+                              traceRay<kFeatures>(scene, smp, 2u * path.vertex, path.ray), looksThrough, path, length,
+                              seen)) {
+            }
+            seen.emission += path.radiance;
         }
         const float scale = 1.0f / static_cast<float>(task.count);
-        for (std::uint32_t c = 0; c < 3; ++c) {
-            const int i = static_cast<int>(c);
-            if (task.albedo != nullptr) task.albedo[3 * x + c] = albedo[i] * scale;
-            if (task.normal != nullptr) task.normal[3 * x + c] = normal[i] * scale;
-        }
-        if (task.depth != nullptr) task.depth[x] = hits > 0 ? depth / static_cast<float>(hits) : 0.0f;
+        keepFeatures(task.first, x, seen.first, scale);
+        keepFeatures(task.wide, x, seen.wide, scale);
+        keepFeature(task.emission, x, seen.emission * scale);
     }
 }
 

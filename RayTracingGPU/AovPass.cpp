@@ -9,27 +9,33 @@
 namespace rt::gpu {
 namespace {
 
-void copyPixels(std::span<const float> values, std::size_t firstPixel, app::AovImages& images) {
-    for (std::size_t i = 0; i < values.size() / shared::kAovValues; ++i) {
-        const float* pixel = &values[i * shared::kAovValues];
-        const std::size_t at = firstPixel + i;
-        if (!images.albedo.data.empty()) std::copy_n(pixel, 3, &images.albedo.data[3 * at]);
-        if (!images.normal.data.empty()) std::copy_n(pixel + 3, 3, &images.normal.data[3 * at]);
-        if (!images.depth.data.empty()) images.depth.data[at] = pixel[6];
-    }
+// Values `from` and following of each pixel, into an image unless that is not wanted.
+void copyValues(std::span<const float> values, std::uint32_t from, std::size_t firstPixel, image::Image& image) {
+    if (image.data.empty()) return;
+    for (std::size_t i = 0; i < values.size() / shared::kAovValues; ++i)
+        std::copy_n(&values[i * shared::kAovValues + from], image.channels,
+                    &image.data[(firstPixel + i) * image.channels]);
+}
+
+void copySurfaces(std::span<const float> values, std::uint32_t from, std::size_t firstPixel,
+                  app::SurfaceImages& images) {
+    copyValues(values, from, firstPixel, images.albedo);
+    copyValues(values, from + 3, firstPixel, images.normal);
+    copyValues(values, from + 6, firstPixel, images.depth);
 }
 
 } // namespace
 
 app::AovImages renderAovPass(vulkan::VulkanContext& context, const Kernel& kernel, std::uint32_t width,
                              std::uint32_t height, const app::AovRequest& request, std::uint32_t samples) {
-    app::AovImages images;
-    const std::uint32_t rows = request.rows > 0 ? request.rows : height;
-    if (request.albedo) images.albedo = image::Image(width, rows, 3);
-    if (request.normal) images.normal = image::Image(width, rows, 3);
-    if (request.depth) images.depth = image::Image(width, rows, 1);
-    runPixelPass(context, kernel, {width, rows, 1, samples, shared::kAovValues, request.firstRow},
-                 [&](std::span<const float> values, std::size_t first) { copyPixels(values, first, images); });
+    app::AovImages images = app::makeAovImages(request, width, height);
+    PixelPass pass{width, request.rows > 0 ? request.rows : height, 1, samples, shared::kAovValues, request.firstRow};
+    pass.looksThrough = request.looksThrough();
+    runPixelPass(context, kernel, pass, [&](std::span<const float> values, std::size_t first) {
+        copySurfaces(values, shared::kFirstValues, first, images);
+        copySurfaces(values, shared::kWideValues, first, images.wide);
+        copyValues(values, shared::kEmissionValues, first, images.emission);
+    });
     return images;
 }
 

@@ -33,6 +33,7 @@ void runPixelPass(vulkan::VulkanContext& context, const Kernel& kernel, const Pi
             launch.firstPixel = static_cast<std::uint32_t>(before + pixel);
             launch.pixels = static_cast<std::uint32_t>(count);
             launch.samples = pass.samples;
+            launch.looksThrough = pass.looksThrough ? 1 : 0;
             const double seconds = context.runTimed([&](VkCommandBuffer commands) {
                 kernel.launch(commands, launch, launch.pixels);
                 vulkan::barrier(commands, kernel.access(), vulkan::kTransferRead);

@@ -16,6 +16,7 @@ struct PixelPass {
     std::uint32_t samples = 1;  // that an invocation takes
     std::uint32_t values = 1;   // that it writes: floats
     std::uint32_t firstRow = 0; // of the image
+    bool looksThrough = false;  // of features of surfaces, as PixelLaunch's
 };
 
 // Hands the values of the pixels, row by row, to `take` in pieces, with the number of each piece's first pixel from

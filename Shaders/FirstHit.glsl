@@ -1,6 +1,17 @@
-// First-hit features of a pixel, averaged over its first samples. The includer provides traceRay().
+// Features of the surfaces that a pixel sees, averaged over its first samples. The includer provides traceRay().
 #include "PixelPass.glsl"
 #include "TraceStep.glsl"
+#include "Common/Shared/Path/SeenSurfaces.h"
+
+void writeVector(uint at, vec3 value) {
+    for (uint c = 0u; c < 3u; c++) launch.values.at[at + c] = value[c];
+}
+
+void writeSurfaces(uint at, SurfaceSums sums, float scale) {
+    writeVector(at, sums.albedo * scale);
+    writeVector(at + 3u, sums.normal * scale);
+    launch.values.at[at + 6u] = meanDepth(sums);
+}
 
 // What the invocation of one pixel of a launch does.
 void writeFeatures(uint invocation) {
@@ -9,27 +20,22 @@ void writeFeatures(uint invocation) {
     RenderParams params = renderParams();
     PixelSamples samples;
     if (!beginPixel(invocation, params, samples)) return;
-    vec3 albedo = vec3(0.0f);
-    vec3 normal = vec3(0.0f);
-    float depth = 0.0f;
-    uint hits = 0u;
+    SeenSurfaces seen = nothingSeen();
     for (; samples.smp.index < launch.samples; samples.smp.index++) {
         CameraSamples u = cameraSamples(kFeatures, samples.smp);
-        Ray ray = cameraRay(kFeatures, params, constants.camera, samples.pixel, u);
-        Hit hit = traceLayers(samples.smp, 0u, ray, false, kInfinity);
-        if (hit.t < 0.0f) continue;
-        Surface surface = makeSurface(kFeatures, scene, ray, hit);
-        Material material = loadMaterial(scene, surface.material);
-        albedo += surfaceAlbedo(kFeatures, scene, material, surface);
-        normal += dot(ray.direction, surface.normal) < 0.0f ? surface.shading : -surface.shading;
-        depth += hit.t;
-        hits++;
+        PathState path = startPath(cameraRay(kFeatures, params, constants.camera, samples.pixel, u));
+        float distance = 0.0f;
+        bool goesOn = true;
+        while (goesOn && isTraceable(path.ray, kInfinity)) {
+            Hit hit = traceLayers(samples.smp, 2u * path.vertex, path.ray, false, kInfinity);
+            goesOn = seeSurface(kFeatures, scene, params, samples.smp, hit, launch.looksThrough != 0u, path, distance,
+                                seen);
+        }
+        seen.emission += path.radiance;
     }
     float scale = 1.0f / float(launch.samples);
     uint first = invocation * kAovValues;
-    for (uint c = 0u; c < 3u; c++) {
-        launch.values.at[first + c] = albedo[c] * scale;
-        launch.values.at[first + 3u + c] = normal[c] * scale;
-    }
-    launch.values.at[first + 6u] = hits > 0u ? depth / float(hits) : 0.0f;
+    writeSurfaces(first + kFirstValues, seen.first, scale);
+    writeSurfaces(first + kWideValues, seen.wide, scale);
+    writeVector(first + kEmissionValues, seen.emission * scale);
 }

@@ -273,19 +273,22 @@ RT_FN uvec2 pixelInTile(uint tile, uint tilePixel) {
     return uvec2((tile & 0xffffu) * kTile + tilePixel % kTile, (tile >> 16u) * kTile + tilePixel / kTile);
 }
 
-// ---- first-hit features and costs ----------------------------------------------------------------------------------
+// ---- features of surfaces and costs ----------------------------------------------------------------------------------
 
 RT_MUTABLE_ARRAY(MutableFloatArray, float)
 
 // Push constants of PixelPass.glsl: pixels firstPixel and following, row by row, one invocation each.
 struct PixelLaunch {
-    MutableFloatArray values; // of the first of these pixels, then of the others; first hits: kAovValues each
+    MutableFloatArray values; // of the first of these pixels, then of the others; features: kAovValues each
     uint firstPixel;
     uint pixels;
     uint samples;
+    uint looksThrough; // features: 0: nothing but kFirstValues is wanted
 };
-// Albedo, normal, depth.
-const uint kAovValues = 7u;
+const uint kFirstValues = 0u; // albedo, normal and depth of the first surface
+const uint kWideValues = 7u;  // of the first that scatters widely
+const uint kEmissionValues = 14u;
+const uint kAovValues = 17u;
 
 // ---- preview by rasterisation --------------------------------------------------------------------------------------
 

@@ -2,6 +2,23 @@
 
 namespace rt::app {
 
+AovImages makeAovImages(const AovRequest& request, std::uint32_t width, std::uint32_t height) {
+    const std::uint32_t rows = request.rows > 0 ? request.rows : height;
+    const auto make = [&](bool isWanted, image::Image& image, std::uint32_t channels) {
+        if (isWanted) image = image::Image(width, rows, channels);
+    };
+    const auto makeAll = [&make](const SurfaceRequest& wanted, SurfaceImages& images) {
+        make(wanted.albedo, images.albedo, 3);
+        make(wanted.normal, images.normal, 3);
+        make(wanted.depth, images.depth, 1);
+    };
+    AovImages images;
+    makeAll(request, images);
+    makeAll(request.wide, images.wide);
+    make(request.emission, images.emission, 3);
+    return images;
+}
+
 Snapshot Engine::snapshot() {
     const image::Film& whole = film();
     Snapshot result{whole.resolve(), {}};

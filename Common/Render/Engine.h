@@ -101,18 +101,30 @@ struct EngineReport {
     double cutOffShare() const { return rays.camera > 0 ? cutOff / static_cast<double>(rays.camera) : 0; }
 };
 
-// First-hit features averaged over some samples of each pixel; empty unless asked for.
-struct AovRequest {
+// Features of surfaces averaged over some samples of each pixel; empty unless asked for.
+struct SurfaceRequest {
     bool albedo = false;
-    bool normal = false;                  // world space, shading normal facing the camera
-    bool depth = false;                   // distance along the ray, of the samples that hit something; 0 where none did
-    std::uint32_t firstRow = 0, rows = 0; // that the images are to have, and no others; 0: all
+    bool normal = false; // world space, shading normal facing the camera
+    bool depth = false;  // distance along the path, of the samples that hit something; 0 where none did
     bool any() const { return albedo || normal || depth; }
 };
+struct AovRequest : SurfaceRequest {      // of the first surface that is hit
+    std::uint32_t firstRow = 0, rows = 0; // that the images are to have, and no others; 0: all
+    SurfaceRequest wide{};                // of the first that scatters widely, through mirrors and clear glass
+    bool emission = false;                // radiance of lights and sky in sight, in mirrors and glass too
+    bool looksThrough() const { return wide.any() || emission; }
+    bool any() const { return SurfaceRequest::any() || looksThrough(); }
+};
 inline constexpr std::uint32_t kAovSamples = 16; // of each pixel in files, or fewer when the render has fewer
-struct AovImages {
+struct SurfaceImages {
     image::Image albedo, normal, depth;
 };
+struct AovImages : SurfaceImages {
+    SurfaceImages wide; // the albedo is times the throughput of mirrors and glass
+    image::Image emission;
+};
+// All that is asked for, black, of an image of this size.
+AovImages makeAovImages(const AovRequest& request, std::uint32_t width, std::uint32_t height);
 
 // The film as a picture.
 struct Snapshot {

@@ -22,8 +22,20 @@ enum class Tonemap : std::uint32_t {
     Agx = shared::kTonemapAgx,
     Neutral = shared::kTonemapNeutral
 };
-// Images beside the picture: first-hit features, and what the film knows of each pixel.
-enum class Aov { Albedo, Normal, Depth, Variance, Samples, Denoised, DenoisedError };
+// Images beside the picture: features of surfaces in sight, and what the film knows of each pixel.
+enum class Aov {
+    Albedo,
+    Normal,
+    Depth,
+    WideAlbedo,
+    WideNormal,
+    WideDepth,
+    Emission,
+    Variance,
+    Samples,
+    Denoised,
+    DenoisedError
+};
 
 // A value of an enumeration: on the command line, in files and in statistics; in a window; and a sentence on what it
 // does.
@@ -77,6 +89,10 @@ inline constexpr Named<Tonemap> kTonemaps[] = {{"none", Tonemap::None, "None (cl
 inline constexpr Named<Aov> kAovs[] = {{"albedo", Aov::Albedo},
                                        {"normal", Aov::Normal},
                                        {"depth", Aov::Depth},
+                                       {"wide-albedo", Aov::WideAlbedo},
+                                       {"wide-normal", Aov::WideNormal},
+                                       {"wide-depth", Aov::WideDepth},
+                                       {"emission", Aov::Emission},
                                        {"variance", Aov::Variance},
                                        {"samples", Aov::Samples},
                                        {"denoised", Aov::Denoised},

@@ -61,10 +61,15 @@ class EnginePair {
 
     // First-hit features of what was rendered last.
     std::vector<Pair> features() {
-        const app::AovRequest all{true, true, true};
+        app::AovRequest all{true, true, true};
+        all.wide = {true, true, true};
+        all.emission = true;
         app::AovImages cpu = cpu_->renderAovs(all, 4);
         app::AovImages gpu = gpu_->renderAovs(all, 4);
-        return {{cpu.albedo, gpu.albedo}, {cpu.normal, gpu.normal}, {cpu.depth, gpu.depth}};
+        return {
+            {cpu.albedo, gpu.albedo},           {cpu.normal, gpu.normal},           {cpu.depth, gpu.depth},
+            {cpu.wide.albedo, gpu.wide.albedo}, {cpu.wide.normal, gpu.wide.normal}, {cpu.wide.depth, gpu.wide.depth},
+            {cpu.emission, gpu.emission}};
     }
 
   private:

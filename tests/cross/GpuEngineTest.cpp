@@ -296,6 +296,7 @@ TEST_P(GpuEngineTest, FirstHitFeatures) {
 TEST_P(GpuEngineTest, DepthIsThatOfWhatIsHit) {
     const auto engine = gpu::makeGpuEngine(device(), testedEngine());
     expectDepthOfWhatIsHit(*engine);
+    expectSurfacesInMirrors(*engine);
     EXPECT_EQ(device().validationMessages(), 0u);
 }
 

@@ -120,6 +120,10 @@ TEST(CpuEngine, DepthIsThatOfWhatIsHit) {
     expectDepthOfWhatIsHit(*cpu::makeCpuEngine({}));
 }
 
+TEST(CpuEngine, MirrorsShowTheSurfacesInThem) {
+    expectSurfacesInMirrors(*cpu::makeCpuEngine({}));
+}
+
 // Lengths in binary floating point scale exactly by powers of two: any absolute tolerance would show.
 TEST(CpuEngine, ScalingByAPowerOfTwoIsExact) {
     const scene::SceneDesc desc = scene::findBuiltinScene("cornell-box-lights");

@@ -187,4 +187,39 @@ void expectDepthOfWhatIsHit(app::Engine& engine) {
     EXPECT_EQ(cut, 28u);
 }
 
+//   wall     camera           mirror        a ray through (x, y) of the plane at distance 1 meets the mirror at
+//     |        o ------|------ |            4 sqrt(1 + x^2 + y^2) and, mirrored, the wall 6 times that root later
+//     2               1       4
+void expectSurfacesInMirrors(app::Engine& engine) {
+    constexpr std::uint32_t kSide = 8;
+    constexpr float kOfMirror = 0.75f, kAlbedo = 0.5f, kEmission = 3;
+    SceneDesc desc = emptyScene({0, 0, 0}, {0, 0, -1}, 60);
+    desc.materials["wall"] = lambertian(kAlbedo, kEmission);
+    desc.materials["mirror"].kind = scene::MaterialKind::Metal;
+    desc.materials["mirror"].albedo = glm::dvec3(kOfMirror);
+    desc.objects.push_back({scene::QuadDesc{{-9, -9, -4}, {18, 0, 0}, {0, 18, 0}, "mirror"}});
+    desc.objects.push_back({scene::QuadDesc{{-20, -20, 2}, {40, 0, 0}, {0, 40, 0}, "wall"}});
+    const auto compiled = scene::compileScene(desc);
+    engine.setScene(compiled, nullptr);
+    engine.reset(compiled->camera, smallSettings(kSide, kReplicates));
+    app::AovRequest request{false, false, true};
+    request.wide = {true, true, true};
+    request.emission = true;
+    const app::AovImages images = engine.renderAovs(request, 16);
+    const double pixel = 2 * std::tan(std::numbers::pi / 6) / kSide; // at distance 1
+    const auto edge = [&](std::uint32_t i) { return std::abs((i - 0.5 * kSide) * pixel); };
+    for (std::uint32_t y = 0; y < kSide; ++y)
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            const auto [nearX, farX] = std::minmax({edge(x), edge(x + 1)});
+            const auto [nearY, farY] = std::minmax({edge(y), edge(y + 1)});
+            const float first = *images.depth.pixel(x, y), depth = *images.wide.depth.pixel(x, y);
+            EXPECT_GE(depth, 10 * std::sqrt(1 + nearX * nearX + nearY * nearY) - 1e-4) << x << " " << y;
+            EXPECT_LE(depth, 10 * std::sqrt(1 + farX * farX + farY * farY) + 1e-4) << x << " " << y;
+            EXPECT_NEAR(first, 0.4f * depth, 1e-4f);
+            EXPECT_NEAR(images.wide.albedo.pixel(x, y)[1], kOfMirror * kAlbedo, 1e-6f);
+            EXPECT_NEAR(images.emission.pixel(x, y)[2], kOfMirror * kEmission, 1e-5f);
+            EXPECT_NEAR(images.wide.normal.pixel(x, y)[2], -1, 1e-6f); // it faces the ray, which comes from -z
+        }
+}
+
 } // namespace rt::test

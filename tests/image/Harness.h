@@ -52,6 +52,9 @@ void expectStability(app::Engine& engine);
 // edges go through pixels; and that rows alone are those of the image.
 void expectDepthOfWhatIsHit(app::Engine& engine);
 
+// Asserts that a mirror shows the albedo, normal, distance and emission of what is in it, times its own colour.
+void expectSurfacesInMirrors(app::Engine& engine);
+
 // Asserts that every sample is finite.
 image::Image renderImage(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings);
 

@@ -61,15 +61,17 @@ class FakeEngine : public Engine {
     // What it finds tells of how many samples it is.
     AovImages renderAovs(const AovRequest& request, std::uint32_t samples) override {
         if (aovsFail) throw RenderError("no features");
-        const auto constant = [&](bool wanted, std::uint32_t channels, float value) {
-            image::Image image;
-            if (!wanted) return image;
-            image = image::Image(settings_.width, request.rows > 0 ? request.rows : settings_.height, channels);
-            image.data.assign(image.data.size(), value);
-            return image;
-        };
-        return {constant(request.albedo, 3, static_cast<float>(samples) / 64), constant(request.normal, 3, -1.0f),
-                constant(request.depth, 1, 8.0f)};
+        AovImages images = makeAovImages(request, settings_.width, settings_.height);
+        const auto fill = [](image::Image& image, float value) { image.data.assign(image.data.size(), value); };
+        const float count = static_cast<float>(samples) / 64;
+        fill(images.albedo, count);
+        fill(images.normal, -1);
+        fill(images.depth, 8);
+        fill(images.wide.albedo, count / 2);
+        fill(images.wide.normal, 1);
+        fill(images.wide.depth, 16);
+        fill(images.emission, 4);
+        return images;
     }
     EngineReport report() const override { return report_; }
 

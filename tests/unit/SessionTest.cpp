@@ -73,6 +73,19 @@ TEST_F(SessionTest, WritesImagesBesideThePicture) {
     for (const Json& file : stats["outputs"]) EXPECT_TRUE(fs::exists(file.get<std::string>())) << file;
 }
 
+TEST_F(SessionTest, WritesWhatMirrorsAndGlassShow) {
+    run({"--spp", "40", "-o", path("a.pfm"), "-o", path("b.png"), "--aov",
+         "wide-albedo,wide-normal,wide-depth,emission"});
+    EXPECT_EQ(image::readImage(path("a.wide-albedo.pfm")).data[0], 0.125f);
+    EXPECT_EQ(image::readImage(path("a.wide-normal.pfm")).data[0], 1.0f);
+    EXPECT_EQ(image::readImage(path("a.wide-depth.pfm")).data[0], 16.0f);
+    EXPECT_EQ(image::readImage(path("a.emission.pfm")).data[0], 4.0f);
+    EXPECT_FALSE(fs::exists(path("a.albedo.pfm")));
+    EXPECT_NEAR(image::readImage(path("b.wide-albedo.png")).data[0], 0.125f, 0.01f);
+    EXPECT_EQ(image::readImage(path("b.wide-normal.png")).data[0], 1.0f);
+    EXPECT_EQ(image::readImage(path("b.wide-depth.png")).data[0], 1.0f);
+}
+
 TEST_F(SessionTest, StatisticsHaveEveryKeyOfTheContract) {
     run({"--spp", "64", "--stats", path("stats.json"), "--replicates", "8"});
     const Json stats = statistics();

@@ -152,7 +152,8 @@ void addOutput(FlagSet& flags, ParsedFlags& parsed) {
     flags.addChoice("--tonemap", kTonemaps, options.tonemap,
                     "for PNG; none clamps, neutral is the curve that windows begin with, agx a filmic one");
     flags.add("--aov", "LIST",
-              "write albedo,normal,depth,variance,samples,denoised,denoised-error as well, as NAME.albedo.EXT",
+              "write albedo,normal,depth,wide-albedo,wide-normal,wide-depth,emission,variance,samples,denoised,"
+              "denoised-error as well, as NAME.albedo.EXT; wide: of what is seen through mirrors and clear glass",
               [&options](const std::string& flag, const std::string& text) {
                   options.aovs = {};
                   for (const std::string& name : parseList(flag, text)) {

@@ -41,12 +41,12 @@ float largestValue(const ImageRows& image) {
 // Into the range that the format of `path` can hold.
 ImageRows fitted(const ImageRows& image, Aov aov, const std::filesystem::path& path) {
     const bool png = hasExtension(path, ".png");
-    if (aov == Aov::Normal && (png || hasExtension(path, ".hdr"))) {
+    if ((aov == Aov::Normal || aov == Aov::WideNormal) && (png || hasExtension(path, ".hdr"))) {
         const ImageRows positive = mapped(image, [](float value) { return 0.5f * value + 0.5f; });
         if (!png) return positive;
         return mapped(positive, [](float value) { return shared::srgbDecode(std::clamp(value, 0.0f, 1.0f)); });
     }
-    if (png && aov != Aov::Albedo && aov != Aov::Denoised)
+    if (png && aov != Aov::Albedo && aov != Aov::WideAlbedo && aov != Aov::Denoised)
         if (const float maximum = largestValue(image); maximum > 0)
             return mapped(image, [maximum](float value) { return value / maximum; });
     return image;
@@ -65,12 +65,27 @@ ImageRows rowsOf(Aov aov, const image::Film& film, const AovImages& features, co
             return features.normal;
         case Aov::Depth:
             return features.depth;
+        case Aov::WideAlbedo:
+            return features.wide.albedo;
+        case Aov::WideNormal:
+            return features.wide.normal;
+        case Aov::WideDepth:
+            return features.wide.depth;
+        case Aov::Emission:
+            return features.emission;
         case Aov::Variance:
             return varianceRows(film);
         case Aov::Samples:
             break;
     }
     return sampleCountRows(film);
+}
+
+AovRequest featuresFor(const Options& options) {
+    AovRequest request{options.wants(Aov::Albedo), options.wants(Aov::Normal), options.wants(Aov::Depth)};
+    request.wide = {options.wants(Aov::WideAlbedo), options.wants(Aov::WideNormal), options.wants(Aov::WideDepth)};
+    request.emission = options.wants(Aov::Emission);
+    return request;
 }
 
 void probe(const std::filesystem::path& path) {
@@ -131,12 +146,12 @@ OutputResult writeOutputs(const Options& options, const scene::CameraDesc& camer
             return shown(isRaw ? withinRegion(meanRows(film), options.region) : ImageRows(denoised.picture), output);
         });
 
-    const AovRequest request{options.wants(Aov::Albedo), options.wants(Aov::Normal), options.wants(Aov::Depth)};
+    const AovRequest request = featuresFor(options);
     AovImages features;
     const auto renderFeatures = [&] {
         if (request.any()) features = engine.renderAovs(request, std::min(kAovSamples, options.settings.spp));
     };
-    const bool hasFeatures = attempt(result.failures, "albedo, normal and depth cannot be made", renderFeatures);
+    const bool hasFeatures = attempt(result.failures, "features of surfaces cannot be made", renderFeatures);
     const auto exists = [&](Aov aov) {
         if (aov == Aov::Denoised || aov == Aov::DenoisedError) return isFiltered;
         return hasFeatures || aov == Aov::Variance || aov == Aov::Samples;

@@ -130,12 +130,10 @@ RT_FN bool samplesLight(Features features, RT_IN(RenderParams) params, RT_IN(Sce
     return usesNextEventEstimation(features, params, globals, v) && !leavesLight(features, params, v, s);
 }
 
-// Continues the path from v into the direction that b sampled; `survival` decides the roulette. False: it ends here.
-RT_FN bool continuePath(Features features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b,
-                        float survival, RT_INOUT(PathState) s) {
+// Throughput and ray of the path that leaves v in the direction that b sampled. False: nothing goes there.
+RT_FN bool leaveVertex(RT_IN(Vertex) v, RT_IN(BsdfSample) b, RT_INOUT(PathState) s) {
     s.throughput *= b.weight;
-    float strongest = maxComponent(s.throughput);
-    if (!(strongest > 0.0f)) return false;
+    if (!(maxComponent(s.throughput) > 0.0f)) return false;
     s.ray.origin = v.origin;
     if (v.inMedium == 0u) {
         // A sample that leaks through the geometric surface is black.
@@ -144,11 +142,18 @@ RT_FN bool continuePath(Features features, RT_IN(RenderParams) params, RT_IN(Ver
         if (b.transmitted != 0u) s.ray.origin = offsetOrigin(v.position, v.error, v.normal, b.wi);
     }
     s.ray.direction = b.wi;
+    return true;
+}
+
+// Continues the path from v into the direction that b sampled; `survival` decides the roulette. False: it ends here.
+RT_FN bool continuePath(Features features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b,
+                        float survival, RT_INOUT(PathState) s) {
+    if (!leaveVertex(v, b, s)) return false;
     // Light beyond the surface is not sampled from v, so what transmitted rays meet counts in full.
     s.pdf = b.delta != 0u || b.transmitted != 0u ? 0.0f : b.pdf;
     Roulette roulette = techniqueRoulette(features, params, v, b, s);
     if (params.russianRoulette == 0u || v.index == 0u || !roulette.mayEnd) return true;
-    float survivors = float(params.russianRoulette) * strongest * roulette.odds;
+    float survivors = float(params.russianRoulette) * maxComponent(s.throughput) * roulette.odds;
     float probability = clamp(survivors, kMinSurvival, 1.0f);
     if (survival >= probability) return false;
     s.throughput /= probability;
