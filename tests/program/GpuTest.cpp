@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -143,6 +144,16 @@ TEST_F(Gpu, GoesOnFromACheckpointAsIfNeverStopped) {
     EXPECT_TRUE(failsWith(
         cpu({"-q", "--headless", "--width", "32", "--height", "32", "--spp", "50", "--resume", "c.rtc", "-o", "a.pfm"}),
         3, "engine"));
+}
+
+TEST_F(Gpu, DenoisesItsFilm) {
+    const Outcome outcome =
+        gpu({"--spp", "8", "--denoise", "-o", "a.pfm", "--aov", "wide-albedo,emission", "--stats", "s.json"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_TRUE(image::readImage(path("a.pfm")).data != image::readImage(path("a.denoised.pfm")).data);
+    for (const char* name : {"a.wide-albedo.pfm", "a.emission.pfm"}) EXPECT_TRUE(std::filesystem::exists(path(name)));
+    const auto stats = jsonOf("s.json");
+    EXPECT_LT(stats["denoised"]["estimated_relmse"].get<double>(), stats["estimated_relmse"].get<double>());
 }
 
 TEST_F(Gpu, WritesEveryImageWithoutAMessageOfTheValidationLayers) {

@@ -130,6 +130,13 @@ TEST_F(ImageTool, FiltersAFilmThatWasKept) {
     for (const float value : image::readImage(folder_ / "kept.pfm").data) EXPECT_NEAR(value, 0.25f, 1e-4f);
     image::writeCheckpoint(folder_ / "one.rtc", nlohmann::json::object(), image::Film({8, 8, 1}));
     EXPECT_TRUE(failsWith(tool({"denoise", "one.rtc", "-o", "kept.pfm"}), 3, "replicates is 1"));
+    image::writeCheckpoint(folder_ / "empty.rtc", nlohmann::json::object(), image::Film({8, 8, 2}));
+    EXPECT_TRUE(failsWith(tool({"denoise", "empty.rtc", "-o", "kept.pfm"}), 3, "no samples"));
+    EXPECT_TRUE(failsWith(tool({"denoise", "none.rtc", "-o", "kept.pfm"}), 3, "none.rtc"));
+    EXPECT_TRUE(failsWith(tool({"denoise", "small.exr", "-o", "kept.pfm"}), 3, "small.exr"));
+    EXPECT_TRUE(failsWith(tool({"denoise", "kept.rtc", "-o", "kept.gif"}), 2, "allowed: .png, .exr, .hdr, .pfm"));
+    EXPECT_TRUE(failsWith(tool({"denoise", "kept.rtc", "-o", "none/kept.pfm"}), 1, "none"));
+    EXPECT_TRUE(failsWith(tool({"denoise", "kept.rtc"}), 2, "--output"));
 }
 
 TEST_F(ImageTool, HelpAndVersion) {

@@ -128,6 +128,15 @@ TEST_F(Ranks, MakeTheBitsOfOneProcessWithAdaptiveSamples) {
     EXPECT_TRUE(picture(3, rounds) == pixels(rounds));
 }
 
+// Rank 0 filters what all have rendered, adaptive films too.
+TEST_F(Ranks, DenoiseToTheBitsOfOneProcess) {
+    for (const char* adaptive : {"off", "on"}) {
+        const Arguments odd = {"--width", "70",         "--height", "45",        "--spp",
+                               "24",      "--adaptive", adaptive,   "--denoise", "only"};
+        EXPECT_TRUE(picture(2, odd) == pixels(odd)) << adaptive;
+    }
+}
+
 TEST_F(Ranks, StatisticsNameThem) {
     ASSERT_EQ(mpirun(3, {"--width", "64", "--height", "64", "--spp", "64", "--stats", "s.json"}).exitCode, 0);
     const auto stats = jsonOf("s.json");

@@ -201,7 +201,8 @@ TEST_F(OptionsTest, ErrorsNameFlagValueAndWhatIsAllowed) {
     EXPECT_EQ(error({"--sampler", "halton"}), "--sampler halton: must be sobol, sobol-blue, stratified or independent");
     EXPECT_EQ(error({"--russian-roulette", "yes"}), "--russian-roulette yes: must be on or off");
     EXPECT_EQ(error({"--aov", "albedo,colour", "-o", "a.png"}),
-              "--aov colour: must be albedo, normal, depth, variance, samples, denoised or denoised-error");
+              "--aov colour: must be albedo, normal, depth, wide-albedo, wide-normal, wide-depth, emission, variance, "
+              "samples, denoised or denoised-error");
     EXPECT_EQ(error({"--aov", "albedo,", "-o", "a.png"}), "--aov albedo,: must be a list like a,b,c");
     EXPECT_EQ(error({"-o", ""}), "--output '': must be the name of a file");
     EXPECT_EQ(error({"--frames", "3"}), "--frames: unknown flag; --help lists them all");
@@ -321,6 +322,23 @@ TEST_F(OptionsTest, FeatureNames) {
             EXPECT_EQ(featureNames(bits).back(), name);
         }
     }
+}
+
+// A configuration file speaks of all renders: those that cannot be denoised are made all the same.
+TEST_F(OptionsTest, AFileMayAskForDenoising) {
+    const auto asked = [this](const std::string& value, std::vector<std::string> more) {
+        more.insert(more.end(), {"--config", writeFile("c.json", "{\"denoise\": " + value + "}")});
+        return render(std::move(more));
+    };
+    for (const char* value : {"true", "\"on\""}) EXPECT_TRUE(asked(value, {"-o", "a.pfm"}).wants(Aov::Denoised));
+    for (const char* value : {"false", "\"off\""}) EXPECT_FALSE(asked(value, {"-o", "a.pfm"}).denoises()) << value;
+    EXPECT_TRUE(asked("\"only\"", {"-o", "a.pfm"}).denoisedOnly);
+    EXPECT_FALSE(asked("true", {"-o", "a.pfm", "--denoise", "off"}).denoises());
+    EXPECT_FALSE(asked("\"only\"", {"-o", "a.pfm", "--spp", "1"}).denoises());
+    EXPECT_FALSE(asked("true", {"-o", "a.pfm", "--tiles", "1/2"}).denoises());
+    EXPECT_FALSE(asked("true", {"--stats", "s.json"}).denoises());
+    EXPECT_FALSE(read({"--config", writeFile("c.json", R"({"denoise": true})"), "--window"}).value().denoises());
+    EXPECT_NE(error({"--config", writeFile("c.json", R"({"denoise": "much"})")}).find("c.json"), std::string::npos);
 }
 
 TEST_F(OptionsTest, EnvironmentCountsBetweenFlagAndFile) {

@@ -1,5 +1,6 @@
 // --denoise from options to files.
 #include <algorithm>
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
@@ -91,7 +92,7 @@ TEST_F(SessionDenoise, StopsWhenTheDenoisedPictureIsGoodEnough) {
 TEST_F(SessionDenoise, SaysWhatItCannotDo) {
     EXPECT_EQ(error<UsageError>({"--spp", "1", "--denoise", "-o", path("a.pfm")}),
               "--denoise: needs two halves of the samples: --spp 2 or more");
-    EXPECT_NE(error<UsageError>({"--denoise", "much", "-o", path("a.pfm")}).find("nothing, or only"),
+    EXPECT_NE(error<UsageError>({"--denoise", "much", "-o", path("a.pfm")}).find("nothing, on, off or only"),
               std::string::npos);
     EXPECT_EQ(error<UsageError>({"--spp", "8", "--denoise", "--tiles", "1/2", "-o", path("a.pfm")}),
               "--denoise: not with --tiles; ray-tracing-image denoise takes the checkpoint that they make");
@@ -104,6 +105,24 @@ TEST_F(SessionDenoise, MakesAnEvenNumberOfReplicates) {
     EXPECT_EQ(options({"-o", path("a.pfm")}).settings.replicates, 1u);
     const Options both = options({"--denoise", "--aov", "denoised", "-o", path("a.pfm")});
     EXPECT_EQ(both.aovs.size(), 1u);
+}
+
+TEST_F(SessionDenoise, GoesOnFromACheckpointToTheSameBits) {
+    const std::vector<std::string> common = {"--denoise", "--aov", "denoised-error", "--spp", "60"};
+    const auto with = [&common](std::vector<std::string> more) {
+        more.insert(more.begin(), common.begin(), common.end());
+        return more;
+    };
+    run(with({"-o", path("whole.pfm")}));
+    const auto interruptAt31 = [](std::uint32_t spp) {
+        if (spp == 31) std::raise(SIGINT);
+    };
+    run(with({"--checkpoint", path("c.rtc"), "-o", path("part.pfm")}), interruptAt31);
+    EXPECT_NE(test::bytesOfFile(path("part.denoised.pfm")), test::bytesOfFile(path("whole.denoised.pfm")));
+    run(with({"--resume", path("c.rtc"), "-o", path("part.pfm")}));
+    for (const std::string layer : {"", ".denoised", ".denoised-error"})
+        EXPECT_EQ(test::bytesOfFile(path("part" + layer + ".pfm")), test::bytesOfFile(path("whole" + layer + ".pfm")))
+            << layer;
 }
 
 } // namespace

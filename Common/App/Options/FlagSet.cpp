@@ -111,6 +111,10 @@ bool FlagSet::given(const std::string& flag) const {
     return option != nullptr && option->count() > 0;
 }
 
+bool FlagSet::isFromFile(const std::string& flag) const {
+    return !config_->placeOf(flag).empty();
+}
+
 bool FlagSet::parse(std::vector<std::string> arguments, std::ostream& out) {
     config_->forgetPlaces();
     config_->setNamed(std::any_of(arguments.begin(), arguments.end(), [](const std::string& argument) {

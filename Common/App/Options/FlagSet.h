@@ -65,6 +65,7 @@ class FlagSet {
     // Returns false when --help or --version was asked for and has been answered on `out`.
     bool parse(std::vector<std::string> arguments, std::ostream& out);
     bool given(const std::string& flag) const;
+    bool isFromFile(const std::string& flag) const; // and not from the command line
 
   private:
     void applyEnvironment();

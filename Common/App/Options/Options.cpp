@@ -128,15 +128,17 @@ void addEstimator(FlagSet& flags, RenderSettings& settings) {
 
 void addDenoise(FlagSet& flags, ParsedFlags& parsed) {
     flags
-        .add("--denoise", "only",
+        .add("--denoise", "on|off|only",
              "also write a picture with less noise, as NAME.denoised.EXT; only: in place of the raw one; "
              "implies an even number of --replicates",
              [&parsed](const std::string& flag, const std::string& text) {
-                 if (text != "only" && text != kNoValue) refuseValue(flag, text, "nothing, or only");
-                 (text == "only" ? parsed.options.denoisedOnly : parsed.denoise) = true;
+                 const bool isOn = text == kNoValue || text == "on" || text == "true";
+                 const bool isOff = text == "off" || text == "false"; // true, false: as files say it of switches
+                 if (!isOn && !isOff && text != "only") refuseValue(flag, text, "nothing, on, off or only");
+                 parsed.denoise = isOn;
+                 parsed.options.denoisedOnly = text == "only";
              })
-        ->expected(0, 1)
-        ->configurable(false);
+        ->expected(0, 1);
 }
 
 void addOutput(FlagSet& flags, ParsedFlags& parsed) {
@@ -247,8 +249,11 @@ void settleCommand(const FlagSet& flags, ParsedFlags& parsed) {
         if (flags.given(flag)) throw UsageError(std::string(flag) + ": not with a window; use --headless");
 }
 
-void settleDenoise(ParsedFlags& parsed) {
+void settleDenoise(const FlagSet& flags, ParsedFlags& parsed) {
     Options& options = parsed.options;
+    const bool canDenoise = !options.window && !options.tiles && !options.outputs.empty() && options.settings.spp >= 2;
+    // What a configuration file says of all renders holds for those that can.
+    if (flags.isFromFile("--denoise") && !canDenoise) parsed.denoise = options.denoisedOnly = false;
     if (parsed.denoise && !options.wants(Aov::Denoised)) options.aovs.push_back(Aov::Denoised);
     if (options.denoisedOnly && options.wants(Aov::Denoised))
         throw UsageError("--denoise only: is the output itself; not with --aov denoised");
@@ -350,7 +355,7 @@ std::optional<Options> OptionParser::parse(std::vector<std::string> arguments, s
 
     parsed.options.keepsUserFiles = !flags.given("--no-config");
     settleCommand(flags, parsed);
-    settleDenoise(parsed);
+    settleDenoise(flags, parsed);
     settleErrorEstimate(parsed.options);
     settleFiles(parsed.options);
     settlePolicy(flags, parsed);
