@@ -1,5 +1,7 @@
 #include "Common/Render/Engine.h"
 
+#include "Common/Render/PictureDenoiser.h"
+
 namespace rt::app {
 
 AovImages makeAovImages(const AovRequest& request, std::uint32_t width, std::uint32_t height) {
@@ -30,6 +32,10 @@ Snapshot Engine::snapshot() {
 TilesToPack Engine::takeTiles(const image::TileList& tiles) {
     const auto packed = std::make_shared<std::vector<std::byte>>(image::packTiles(film(), tiles));
     return [packed] { return std::move(*packed); };
+}
+
+std::unique_ptr<PictureDenoiser> Engine::makeDenoiser() {
+    return makeHostDenoiser(*this);
 }
 
 } // namespace rt::app

@@ -150,6 +150,8 @@ enum class Cost {
 // when that has been destroyed.
 using TilesToPack = std::function<std::vector<std::byte>()>;
 
+class PictureDenoiser;
+
 // Not thread-safe: one thread drives an engine. Order of calls: setScene, reset, renderSome until finished.
 struct Engine {
     virtual ~Engine() = default;
@@ -196,6 +198,8 @@ struct Engine {
         (void)camera, (void)width, (void)height;
         return {};
     }
+    // After reset: for the film that it has begun, see there.
+    virtual std::unique_ptr<PictureDenoiser> makeDenoiser();
     virtual EngineReport report() const = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "Common/Render/Engine.h"
+#include "Common/Render/PictureDenoiser.h"
 
 namespace rt::app {
 
@@ -36,6 +37,7 @@ class ForwardingEngine : public Engine {
     Preview renderPreview(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) override {
         return engine_->renderPreview(camera, width, height);
     }
+    std::unique_ptr<PictureDenoiser> makeDenoiser() override { return engine_->makeDenoiser(); }
     EngineReport report() const override { return engine_->report(); }
 
   protected:

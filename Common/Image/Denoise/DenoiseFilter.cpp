@@ -7,6 +7,7 @@
 
 #include "Common/Core/CpuFeatures.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Image/Denoise/DenoiseKernel.h"
 #include "Common/Image/Denoise/FeatureSpace.h"
@@ -203,8 +204,10 @@ void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads
     const DenoiseKernel kernel = bestKernel();
     parallelFor(threads, rows, [&](std::size_t row) {
         TileFilter filter(halves, features, kernel);
-        for (std::size_t column = 0; column < columns; ++column)
+        for (std::size_t column = 0; column < columns; ++column) {
+            interruptionPoint();
             filter.filter(static_cast<int>(column) * kDenoiseTile, static_cast<int>(row) * kDenoiseTile);
+        }
     });
 }
 

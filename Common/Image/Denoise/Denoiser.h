@@ -30,8 +30,8 @@ struct Denoised {
     RelMseEstimate relmse;                           // of `picture`
 };
 
-// The noise of pixels of a square of `dependentSide` may be alike, as in ErrorEstimate.h. The same bits for any number
-// of threads (0: as many as the machine has).
+// The noise of pixels of a square of `dependentSide` may be alike, as in ErrorEstimate.h. The same bits for any number of
+// threads (0: as many as the machine has). Whoever may call this thread's work off (Interruption.h) interrupts it.
 Denoised denoise(const DenoiseInput& input, std::uint32_t dependentSide, std::size_t threads = 0);
 
 } // namespace rt::image

@@ -1,0 +1,47 @@
+// Pictures with less noise of the film that an engine holds, for whoever looks at it while it converges.
+// docs/denoising.md has the filters.
+#pragma once
+#include <atomic>
+#include <memory>
+#include <optional>
+
+#include "Common/Image/Denoise/Denoiser.h"
+
+namespace rt::app {
+
+struct Engine;
+
+enum class DenoiseQuality {
+    Live, // in milliseconds, for a picture that converges or moves; what error it still has is not known
+    Final // what --denoise writes
+};
+
+struct DenoiseRequest {
+    DenoiseQuality quality = DenoiseQuality::Final;
+    bool details = false; // of Final: both halves, the error, and the bandwidth of each pixel, beside the picture
+};
+
+// What was not asked for, or is not known, has no pixels.
+struct DenoisedPicture {
+    DenoiseQuality quality = DenoiseQuality::Final;
+    image::Denoised images; // of Live only the picture; the rest of it has no meaning then
+    double seconds = 0;     // of features and filter
+};
+
+// Of one film: made by Engine::makeDenoiser() after reset(), and of no use after the next one. What takes long to make,
+// as pipelines of a device, belongs to the engine. Used by the thread that drives the engine, between its calls, so that
+// its time is none of sampling.
+class PictureDenoiser {
+  public:
+    virtual ~PictureDenoiser() = default;
+
+    // The film as it is, which stays as it is. None where `cancel` became true, and where the film has no two halves of
+    // its samples, or lacks one in some pixel as yet. Returns within 100 ms once `cancel` is true; what it has made of
+    // features by then is kept for the next call. Throws what the engine throws.
+    virtual std::optional<DenoisedPicture> denoise(const DenoiseRequest& request, const std::atomic<bool>& cancel) = 0;
+};
+
+// By the processor, for any engine that has its film on the host or can bring it there; the engine must outlive it.
+std::unique_ptr<PictureDenoiser> makeHostDenoiser(Engine& engine);
+
+} // namespace rt::app
