@@ -1,11 +1,13 @@
-// The denoiser of Common/Image/Denoise on the film of any engine.
+// The denoisers of Common/Image/Denoise on the film of any engine.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 
 #include "Common/Core/Interruption.h"
-#include "Common/Image/Denoise/FilmHalves.h"
+#include "Common/Core/Parallel.h"
+#include "Common/Image/Denoise/LiveDenoiser.h"
+#include "Common/Image/FilmRows.h"
 #include "Common/Render/Engine.h"
 #include "Common/Render/PictureDenoiser.h"
 #include "Common/Render/RenderParams.h"
@@ -14,10 +16,18 @@
 namespace rt::app {
 namespace {
 
+constexpr std::uint32_t kLiveAovSamples = 1; // of each pixel, for a picture that is wanted soon
 constexpr double kRowsSeconds = 0.03; // that the features of some rows may take at a time, as nothing interrupts them
 
 void putRows(const image::Image& rows, std::uint32_t first, image::Image& all) {
     std::copy(rows.data.begin(), rows.data.end(), all.pixel(0, first));
+}
+
+void readRows(const image::ImageRows& rows, std::size_t threads, image::Image& all) {
+    if (all.data.empty()) all = image::Image(rows.width, rows.height, rows.channels);
+    parallelFor(threads, rows.height, [&](std::size_t y) {
+        rows.read(static_cast<std::uint32_t>(y), {all.pixel(0, static_cast<std::uint32_t>(y)), rows.rowValues()});
+    });
 }
 
 class HostDenoiser final : public PictureDenoiser {
@@ -28,53 +38,69 @@ class HostDenoiser final : public PictureDenoiser {
         const Stopwatch watch;
         const image::Film& film = engine_.film();
         if (film.desc().replicates < 2 || film.minReplicateSamples() == 0) return std::nullopt;
-        if (!renderFeatures(kAovSamples, film.desc(), cancel)) return std::nullopt;
-        image::DenoiseInput input = image::filmHalves(film);
-        input.albedo = features_.albedo;
-        input.normal = features_.normal;
-        input.depth = features_.depth;
-        const EngineReport report = engine_.report();
-        DenoisedPicture result;
+        const bool isLive = request.quality == DenoiseQuality::Live;
+        if (!renderFeatures(isLive ? kLiveAovSamples : kAovSamples, film.desc(), cancel)) return std::nullopt;
         try {
             const Interruptible interruptible(cancel);
-            result.images = image::denoise(input, dependentSide(report.features), report.threads);
+            DenoisedPicture result{request.quality, filter(film, isLive), watch.seconds()};
+            if (!request.details)
+                for (image::Image* detail :
+                     {&result.images.halfA, &result.images.halfB, &result.images.error, &result.images.bandwidth})
+                    *detail = {};
+            return result;
         } catch (const Interrupted&) {
             return std::nullopt;
         }
-        if (!request.details)
-            result.images.halfA = result.images.halfB = result.images.error = result.images.bandwidth = {};
-        result.seconds = watch.seconds();
-        return result;
     }
 
   private:
-    // Some rows at a time. False: cancelled.
+    image::Denoised filter(const image::Film& film, bool isLive) {
+        const EngineReport report = engine_.report();
+        readRows(image::halfRows(film, 0), report.threads, input_.halfA);
+        readRows(image::halfRows(film, 1), report.threads, input_.halfB);
+        input_.samplesOfHalf = std::uint64_t{film.minReplicateSamples()} * (film.desc().replicates / 2);
+        if (!isLive) return image::denoise(input_, dependentSide(report.features), report.threads);
+        image::Denoised result;
+        result.picture = live_.filter(input_, report.threads);
+        return result;
+    }
+
+    // Of at least so many samples, some rows at a time; where they are called off the rows that there are remain.
+    // False: called off.
     bool renderFeatures(std::uint32_t samples, const image::FilmDesc& size, const std::atomic<bool>& cancel) {
-        if (samples != samples_) {
-            samples_ = samples;
-            rows_ = 0;
-            features_ = {image::Image(size.width, size.height, 3), image::Image(size.width, size.height, 3),
-                         image::Image(size.width, size.height, 1)};
+        if (samples <= samples_) return true;
+        if (samples != comingSamples_) {
+            comingSamples_ = samples;
+            comingRows_ = 0;
+            coming_ = {image::Image(size.width, size.height, 3), image::Image(size.width, size.height, 3),
+                       image::Image(size.width, size.height, 1)};
         }
         std::uint32_t step = 1;
-        while (rows_ < size.height) {
+        while (comingRows_ < size.height) {
             if (cancel.load(std::memory_order_relaxed)) return false;
-            step = std::min(step, size.height - rows_);
+            step = std::min(step, size.height - comingRows_);
             const Stopwatch watch;
-            const AovImages rows = engine_.renderAovs({true, true, true, rows_, step}, samples);
-            putRows(rows.albedo, rows_, features_.albedo);
-            putRows(rows.normal, rows_, features_.normal);
-            putRows(rows.depth, rows_, features_.depth);
-            rows_ += step;
+            const AovImages rows = engine_.renderAovs({true, true, true, comingRows_, step}, samples);
+            putRows(rows.albedo, comingRows_, coming_.albedo);
+            putRows(rows.normal, comingRows_, coming_.normal);
+            putRows(rows.depth, comingRows_, coming_.depth);
+            comingRows_ += step;
             const double fitting = step * kRowsSeconds / std::max(watch.seconds(), 1e-6);
-            step = static_cast<std::uint32_t>(std::clamp(fitting, 1.0, 8.0 * step));
+            step = static_cast<std::uint32_t>(std::clamp(fitting, 1.0, 16.0 * step));
         }
+        samples_ = samples;
+        input_.albedo = std::move(coming_.albedo);
+        input_.normal = std::move(coming_.normal);
+        input_.depth = std::move(coming_.depth);
         return true;
     }
 
     Engine& engine_;
-    AovImages features_;
-    std::uint32_t samples_ = 0, rows_ = 0; // of the features: samples of each pixel, and rows that are there
+    image::LiveDenoiser live_;
+    image::DenoiseInput input_; // with the features of `samples_` samples of each pixel
+    std::uint32_t samples_ = 0;
+    AovImages coming_; // those of more samples, of which so many rows are there
+    std::uint32_t comingSamples_ = 0, comingRows_ = 0;
 };
 
 } // namespace

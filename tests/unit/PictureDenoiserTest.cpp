@@ -45,6 +45,20 @@ TEST_F(PictureDenoiserTest, FinalIsWhatDenoiseWrites) {
     EXPECT_TRUE(denoiser_->denoise({}, kGoOn)->images.error.data.empty()); // nobody has asked for it
 }
 
+TEST_F(PictureDenoiserTest, LiveHasLessNoise) {
+    begin(2, 2);
+    const auto result = denoiser_->denoise({DenoiseQuality::Live}, kGoOn);
+    ASSERT_TRUE(result);
+    const image::Image raw = engine_.film().resolve();
+    const auto squares = [](const image::Image& image) {
+        double sum = 0;
+        for (const float value : image.data) sum += (value - 0.5) * (value - 0.5);
+        return sum;
+    };
+    EXPECT_LT(squares(result->images.picture), 0.2 * squares(raw));
+    EXPECT_TRUE(denoiser_->denoise({}, kGoOn)); // with features of more samples
+}
+
 TEST_F(PictureDenoiserTest, NeedsHalvesInEveryPixel) {
     begin(1, 8);
     EXPECT_FALSE(denoiser_->denoise({}, kGoOn));

@@ -1,0 +1,5 @@
+#include "Common/Image/Denoise/LiveRow.h"
+
+rt::image::LiveKernel rt::image::liveKernel_x86_64_v3() {
+    return filterRow;
+}
