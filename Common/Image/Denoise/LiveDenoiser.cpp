@@ -58,7 +58,8 @@ void LiveDenoiser::loadRow(const DenoiseInput& input, std::uint32_t y) {
     for (std::size_t half = 0; half < 2; ++half) {
         const float* values = (half == 0 ? input.halfA : input.halfB).pixel(0, y);
         for (std::size_t c = 0; c < 3; ++c) {
-            float *radiance = levels_[0][half].radiance[c].row(y), *tones = levels_[0][half].tones[c].row(y);
+            float* radiance = levels_[0][1 - half].radiance[c].row(y); // by the other one's weights
+            float* tones = levels_[0][half].tones[c].row(y);
             for (std::size_t x = 0; x < width_; ++x)
                 radiance[x] = bounded(values[3 * x + c], 0, shared::kDenoiseMaxRadiance);
             for (std::size_t x = 0; x < width_; ++x) tones[x] = shared::denoiseTone(radiance[x]);

@@ -30,7 +30,7 @@ class LiveDenoiser {
         std::size_t width_ = 0, height_ = 0, pitch_ = 0;
         std::vector<float> data_;
     };
-    struct Half {
+    struct Half { // as LiveHalf
         std::array<MarginPlane, 3> radiance, tones;
         MarginPlane variance;
     };

@@ -12,7 +12,7 @@ namespace {
 constexpr int kLiveChunk = 64; // pixels at a time: their sums stay in the nearest cache
 
 struct LiveSums {
-    float radiance[3][kLiveChunk] = {}, weights[kLiveChunk] = {}, variance[kLiveChunk] = {};
+    float radiance[3][kLiveChunk] = {}, tones[3][kLiveChunk] = {}, weights[kLiveChunk] = {}, variance[kLiveChunk] = {};
 };
 
 // The squared differences of features between pixels of the chunk and those `offset` floats further.
@@ -28,26 +28,29 @@ RT_CALL void measureFeatures(const LiveRow& row, std::ptrdiff_t first, std::ptrd
     }
 }
 
-// Adds to the sums of a half what lies `offset` floats further, by weights from the other half.
-RT_CALL void addNeighbours(const LiveHalf& half, const LiveHalf& guide, std::ptrdiff_t first, std::ptrdiff_t offset,
-                           int count, float kernel, const float* __restrict features, LiveSums& sums) {
-    const float *r0 = guide.tones[0] + first, *g0 = guide.tones[1] + first, *b0 = guide.tones[2] + first;
+RT_CALL void addWeighted(const float* weights, const float* values, int count, float* __restrict sums) {
+    for (int i = 0; i < count; ++i) sums[i] += weights[i] * values[i];
+}
+
+// Adds what lies `offset` floats further.
+RT_CALL void addNeighbours(const LiveHalf& half, std::ptrdiff_t first, std::ptrdiff_t offset, int count, float kernel,
+                           const float* __restrict features, LiveSums& sums) {
+    const float *r0 = half.tones[0] + first, *g0 = half.tones[1] + first, *b0 = half.tones[2] + first;
     const float *r1 = r0 + offset, *g1 = g0 + offset, *b1 = b0 + offset;
-    const float *v0 = guide.variance + first, *v1 = v0 + offset;
+    const float *v0 = half.variance + first, *v1 = v0 + offset;
     float weights[kLiveChunk];
     for (int i = 0; i < count; ++i) {
         const float r = r0[i] - r1[i], g = g0[i] - g1[i], b = b0[i] - b1[i];
         const float distance = shared::denoiseDistance(r * r + g * g + b * b, v0[i], v1[i]);
         weights[i] = kernel * shared::liveWeight(distance, features[i]);
     }
-    const float* variance = half.variance + first + offset;
     for (int i = 0; i < count; ++i) {
         sums.weights[i] += weights[i];
-        sums.variance[i] += weights[i] * weights[i] * variance[i];
+        sums.variance[i] += weights[i] * weights[i] * v1[i];
     }
     for (int c = 0; c < 3; ++c) {
-        const float* radiance = half.radiance[c] + first + offset;
-        for (int i = 0; i < count; ++i) sums.radiance[c][i] += weights[i] * radiance[i];
+        addWeighted(weights, half.radiance[c] + first + offset, count, sums.radiance[c]);
+        addWeighted(weights, half.tones[c] + first + offset, count, sums.tones[c]);
     }
 }
 
@@ -58,11 +61,8 @@ RT_CALL void storeMeans(const LiveHalf& half, std::ptrdiff_t first, int count, c
     for (int i = 0; i < count; ++i) half.newVariance[first + i] = sums.variance[i] * shares[i] * shares[i];
     for (int c = 0; c < 3; ++c) {
         float *radiance = half.newRadiance[c] + first, *tones = half.newTones[c] + first;
-        for (int i = 0; i < count; ++i) {
-            const float mean = sums.radiance[c][i] * shares[i];
-            radiance[i] = mean;
-            tones[i] = shared::denoiseTone(mean);
-        }
+        for (int i = 0; i < count; ++i) radiance[i] = sums.radiance[c][i] * shares[i];
+        for (int i = 0; i < count; ++i) tones[i] = sums.tones[c][i] * shares[i];
     }
 }
 
@@ -77,8 +77,7 @@ void filterRow(const LiveRow& row) {
                 float features[kLiveChunk];
                 measureFeatures(row, first, offset, count, features);
                 for (int half = 0; half < 2; ++half)
-                    addNeighbours(row.half[half], row.half[1 - half], first, offset, count, kernel, features,
-                                  sums[half]);
+                    addNeighbours(row.half[half], first, offset, count, kernel, features, sums[half]);
             }
         for (int half = 0; half < 2; ++half) storeMeans(row.half[half], first, count, sums[half]);
     }
