@@ -162,7 +162,7 @@ class CpuEngine final : public app::Engine {
         const Clock::time_point start = Clock::now();
         const Clock::time_point deadline = start + std::chrono::duration_cast<Clock::duration>(budget.time);
         while (!cancelled(budget)) {
-            if (nextTile_ >= tiles_.size() && !beginPass(budget.cancel)) break;
+            if (nextTile_ >= tiles_.size() && !beginPass(budget)) break;
             runPass(deadline, budget.cancel);
             if (Clock::now() >= deadline) break;
         }
@@ -271,13 +271,14 @@ class CpuEngine final : public app::Engine {
     std::uint64_t goal() const { return limit_ ? *limit_ : image::goalOf(film_, settings_.spp); }
 
     // Opens the next pass, which takes every pixel to passEnd_ samples, or to what the plan gives it: one more block of
-    // each replicate, or more where the plan has left few pixels. False: all done, or cancelled.
-    bool beginPass(const std::atomic<bool>* cancel) {
+    // each replicate, or more where the plan has left few pixels; where somebody watches, the first passes are short.
+    // False: all done, or cancelled.
+    bool beginPass(const app::Budget& budget) {
         std::uint64_t next = image::nextSample(film_, tiles_, goal());
         if (next == Film::kNoSample) {
             if (limit_ || !film_.isPilot()) return false;
             std::vector<std::uint32_t> plan =
-                image::makeSamplePlan(film_, settings_.spp, app::dependentSide(features_), {threads_, cancel});
+                image::makeSamplePlan(film_, settings_.spp, app::dependentSide(features_), {threads_, budget.cancel});
             if (plan.empty()) return false;
             film_.setPlan(std::move(plan));
             next = image::nextSample(film_, tiles_, goal());
@@ -285,6 +286,11 @@ class CpuEngine final : public app::Engine {
         const std::uint64_t block = std::uint64_t{Film::kBlock} * settings_.replicates;
         const std::uint64_t blocks = film_.hasPlan() ? 1 + next / block / 2 : 1;
         passEnd_ = std::min((next / block + blocks) * block, goal());
+        if (budget.isWatched && !settings_.adaptive) {
+            std::uint64_t early = settings_.replicates; // samples
+            while (early <= next) early *= 4;
+            passEnd_ = std::min(passEnd_, early);
+        }
         if (film_.hasPlan() || passEnd_ % block != 0) film_.reserveOpenBlocks();
         nextTile_ = 0;
         return true;

@@ -23,6 +23,7 @@ namespace rt::app {
 struct Budget {
     std::chrono::duration<double> time{0.2};
     const std::atomic<bool>* cancel = nullptr;
+    bool isWatched = false; // every pixel is to have a few samples soon, though that takes longer in all
 };
 
 struct RenderStatus {

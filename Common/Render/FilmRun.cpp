@@ -69,7 +69,8 @@ void FilmRun::limit(RunLimits limits) {
 std::optional<StopReason> FilmRun::slice(double seconds, const std::atomic<bool>& cancel) {
     const Stopwatch watch;
     const double before = elapsed_;
-    status_ = engine_->renderSome({std::chrono::duration<double>(std::clamp(limit_ - before, 0.0, seconds)), &cancel});
+    status_ = engine_->renderSome(
+        {std::chrono::duration<double>(std::clamp(limit_ - before, 0.0, seconds)), &cancel, isWatched_});
     seconds_ += watch.seconds();
     elapsed_ = before + watch.seconds();
 

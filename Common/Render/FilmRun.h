@@ -50,6 +50,9 @@ class FilmRun {
     // canTake(spp). Throws what the engine throws.
     void setSpp(std::uint32_t spp);
 
+    // Somebody watches the picture: see Budget.
+    void watch() { isWatched_ = true; }
+
     // In place of the limits before; none at first.
     void limit(RunLimits limits);
 
@@ -87,6 +90,7 @@ class FilmRun {
     double limit_ = 0, nextSave_ = 0; // in elapsed seconds
     double nextCheck_ = 0;            // of the error, in samples
     bool wasBelowTarget_ = false;     // at the last one
+    bool isWatched_ = false;
 };
 
 } // namespace rt::app

@@ -8,7 +8,6 @@
 #include "Common/Core/Parallel.h"
 #include "Common/Image/Denoise/LiveDenoiser.h"
 #include "Common/Image/FilmRows.h"
-#include "Common/Render/Engine.h"
 #include "Common/Render/PictureDenoiser.h"
 #include "Common/Render/RenderParams.h"
 #include "Common/Render/Stopwatch.h"
@@ -16,7 +15,6 @@
 namespace rt::app {
 namespace {
 
-constexpr std::uint32_t kLiveAovSamples = 1; // of each pixel, for a picture that is wanted soon
 constexpr double kRowsSeconds = 0.03; // that the features of some rows may take at a time, as nothing interrupts them
 
 void putRows(const image::Image& rows, std::uint32_t first, image::Image& all) {
@@ -34,12 +32,14 @@ class HostDenoiser final : public PictureDenoiser {
   public:
     explicit HostDenoiser(Engine& engine) : engine_(engine) {}
 
+    bool isQuick() const override { return engine_.report().threads > 0; } // an engine of the processor
+
     std::optional<DenoisedPicture> denoise(const DenoiseRequest& request, const std::atomic<bool>& cancel) override {
         const Stopwatch watch;
         const image::Film& film = engine_.film();
         if (film.desc().replicates < 2 || film.minReplicateSamples() == 0) return std::nullopt;
         const bool isLive = request.quality == DenoiseQuality::Live;
-        if (!renderFeatures(isLive ? kLiveAovSamples : kAovSamples, film.desc(), cancel)) return std::nullopt;
+        if (!renderFeatures(request.featureSamples, film.desc(), cancel)) return std::nullopt;
         try {
             const Interruptible interruptible(cancel);
             DenoisedPicture result{request.quality, filter(film, isLive), watch.seconds()};

@@ -2,14 +2,14 @@
 // docs/denoising.md has the filters.
 #pragma once
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
 #include "Common/Image/Denoise/Denoiser.h"
+#include "Common/Render/Engine.h"
 
 namespace rt::app {
-
-struct Engine;
 
 enum class DenoiseQuality {
     Live, // in milliseconds, for a picture that converges or moves; what error it still has is not known
@@ -19,6 +19,7 @@ enum class DenoiseQuality {
 struct DenoiseRequest {
     DenoiseQuality quality = DenoiseQuality::Final;
     bool details = false; // of Final: both halves, the error, and the bandwidth of each pixel, beside the picture
+    std::uint32_t featureSamples = kAovSamples; // of each pixel, at least, where features are rendered for it
 };
 
 // What was not asked for, or is not known, has no pixels.
@@ -34,6 +35,10 @@ struct DenoisedPicture {
 class PictureDenoiser {
   public:
     virtual ~PictureDenoiser() = default;
+
+    // Whether live pictures are worth their time. They are not where the film has to be copied first: then pictures wait
+    // until the film rests.
+    virtual bool isQuick() const { return true; }
 
     // The film as it is, which stays as it is. None where `cancel` became true, and where the film has no two halves of
     // its samples, or lacks one in some pixel as yet. Returns within 100 ms once `cancel` is true; what it has made of

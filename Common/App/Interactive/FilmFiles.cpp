@@ -21,6 +21,8 @@ std::vector<std::string> writeFilm(const SaveRequest& request, Options options, 
     options.settings = film.settings();
     options.outputs = request.files;
     options.aovs = request.aovs;
+    options.denoisedOnly = request.what == SavedPicture::Denoised;
+    if (request.what == SavedPicture::Both && !options.wants(Aov::Denoised)) options.aovs.push_back(Aov::Denoised);
     options.stats = request.stats;
     options.exposure = request.exposure;
     options.tonemap = request.tonemap;
@@ -114,6 +116,7 @@ RunRecord recordOfWork(const scene::CompiledScene& scene, bool oneSidedLights, c
     record.russianRoulette = nameOf(kOnOff, settings.russianRoulette);
     record.oneSidedLights = nameOf(kOnOff, oneSidedLights);
     record.adaptive = nameOf(kAdaptive, settings.adaptive);
+    record.replicates = std::to_string(settings.replicates);
     record.width = settings.width;
     record.height = settings.height;
     record.maxDepth = settings.maxDepth;

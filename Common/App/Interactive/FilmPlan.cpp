@@ -43,15 +43,21 @@ RenderSettings filmSettings(const RenderRequest& request, const scene::CompiledS
     if (!request.accumulate)
         settings.spp =
             request.samplesPerFrame > 0 ? request.samplesPerFrame : speed.sppIn(kFrameSeconds, settings, 65536);
+    if (request.halves) settings.replicates += settings.replicates % kHalves;
     settings.replicates = std::min(settings.replicates, settings.spp);
+    if (request.halves && settings.replicates > kHalves) settings.replicates -= settings.replicates % kHalves;
     settleReplicates(settings);
     settings.secondMoments = settings.replicates < 2 && (request.accumulate || wantsVariance);
     return settings;
 }
 
-std::optional<RenderSettings> draftSettings(const RenderSettings& film, const RenderSpeed& speed) {
-    const double affordable = speed.samplesIn(kDraftSeconds);
+std::optional<RenderSettings> draftSettings(const RenderSettings& film, const RenderSpeed& speed,
+                                            std::optional<double> denoiseSecondsPerPixel) {
+    double affordable = speed.samplesIn(kDraftSeconds);
     if (affordable >= static_cast<double>(firstPass(film))) return std::nullopt;
+    const bool isDenoised = denoiseSecondsPerPixel && film.replicates % kHalves == 0;
+    if (isDenoised) // the pixels of two samples that there is time for
+        affordable = kDraftSeconds / (kHalves * kDraftSeconds / affordable + *denoiseSecondsPerPixel);
     const double scale = std::sqrt(std::min(1.0, affordable / pixelsOf(film)));
     const auto scaled = [scale](std::uint32_t side) { return std::max(1u, static_cast<std::uint32_t>(side * scale)); };
     RenderSettings draft = film;
@@ -59,7 +65,8 @@ std::optional<RenderSettings> draftSettings(const RenderSettings& film, const Re
     draft.height = scaled(film.height);
     draft.spp = speed.sppIn(kDraftSeconds, film, kDraftSpp);
     draft.adaptive = false;
-    draft.replicates = 1;
+    draft.replicates = isDenoised ? kHalves : 1;
+    if (isDenoised) draft.spp = kHalves;
     draft.secondMoments = false;
     return draft;
 }

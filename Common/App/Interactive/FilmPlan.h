@@ -7,6 +7,8 @@
 
 namespace rt::app {
 
+inline constexpr std::uint32_t kHalves = 2; // replicates, that a denoiser needs
+
 // What an engine renders in a second, learnt as it goes: how large drafts and frames may be.
 class RenderSpeed {
   public:
@@ -27,8 +29,10 @@ RenderSettings sizedSettings(const RenderRequest& request, const scene::Compiled
 RenderSettings filmSettings(const RenderRequest& request, const scene::CompiledScene& scene, std::uint32_t round,
                             bool wantsVariance, const RenderSpeed& speed);
 
-// Of low resolution, to be shown until the film has samples; none where its first pass takes no longer.
-std::optional<RenderSettings> draftSettings(const RenderSettings& film, const RenderSpeed& speed);
+// Of low resolution, to be shown until the film has samples; none where its first pass takes no longer. One that is
+// denoised, which takes so many seconds for a pixel, has two halves and takes no longer either.
+std::optional<RenderSettings> draftSettings(const RenderSettings& film, const RenderSpeed& speed,
+                                            std::optional<double> denoiseSecondsPerPixel = std::nullopt);
 
 // Samples until every pixel of a film has a block of them, or all.
 std::uint64_t firstPass(const RenderSettings& film);

@@ -14,6 +14,7 @@ void noteChange(Requests& requests) {
 } // namespace
 
 bool needsAnotherFilm(const RenderRequest& before, RenderRequest after) {
+    after.halves = before.halves; // which the film may have all the same
     if (before.accumulate && after.accumulate) after.samplesPerFrame = before.samplesPerFrame; // only when it is shown
     return after != before;
 }
@@ -23,6 +24,7 @@ bool differsInBudgetsAlone(const RenderRequest& before, RenderRequest after) {
     after.timeLimit = before.timeLimit;
     after.targetError = before.targetError;
     after.samplesPerFrame = before.samplesPerFrame;
+    after.halves = before.halves;
     return after == before;
 }
 

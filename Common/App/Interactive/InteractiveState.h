@@ -43,6 +43,7 @@ struct RenderRequest {
     RenderSettings settings; // width and height follow from size and scene
     SizeRequest size;
     bool oneSidedLights = true;
+    bool halves = false;    // two halves of the samples that know nothing of each other, for a denoiser
     bool accumulate = true; // false: every frame is an image of its own, with other random numbers
     // Per pixel. Accumulated: a frame is shown when it has so many more samples, or after half a second; frames of an
     // old sum may have more. 0: as many as there is time for between two frames.
@@ -66,6 +67,8 @@ struct Picture {
     std::shared_ptr<const image::Image> radiance; // the same, but for views of something else
     bool isDisplay = false;                       // no exposure and no tone curve belong to it
     bool isPreview = false;                       // by rasterisation
+    bool isDenoised = false;                      // the image is not the radiance, but that with less noise
+    bool isLive = false;                          // of which a better one is to come
     std::shared_ptr<const image::Image> values{}; // that the image shows, where it is no radiance
     std::optional<Legend> legend{};               // of the image's colours, where they stand for something else
     std::uint64_t serial = 0;                     // grows with each new picture
@@ -127,26 +130,30 @@ struct SessionState {
 
     std::string reference; // what it is; empty: there is none
     std::shared_ptr<const image::Image> referenceImage;
-    double referenceError = 0;       // its own relMSE, estimated; 0: not known
-    bool referenceFits = false;      // it is of this scene, camera, size and depth
-    bool isReferenceRender = false;  // what is being rendered will be the reference
-    std::optional<double> relmse;    // of the film, against the reference if that fits, else its own estimate
-    std::vector<ErrorPoint> curve;   // of this film, against the reference
-    bool canShowCost = false;        // the engine knows what a pixel costs in rays
-    bool canShowTime = false;        // and in time
-    bool canPreview = false;         // it can draw without ray tracing
-    double focusDistance = 0;        // that makes sharp what was picked last
-    std::uint64_t focusSerial = 0;   // grows with each pick that met something
-    std::uint64_t historySerial = 0; // grows when a run is added to the history
-    double slowestAnswer = 0;        // seconds from a change of camera or settings to the first picture of it
+    double referenceError = 0;            // its own relMSE, estimated; 0: not known
+    bool referenceFits = false;           // it is of this scene, camera, size and depth
+    bool isReferenceRender = false;       // what is being rendered will be the reference
+    std::optional<double> relmse;         // of the film, against the reference if that fits, else its own estimate
+    std::optional<double> denoisedRelmse; // likewise of the denoised picture
+    double denoiseSeconds = 0;            // that it took, which are none of rendering; 0: there is none
+    std::vector<ErrorPoint> curve;        // of this film, against the reference
+    bool canShowCost = false;             // the engine knows what a pixel costs in rays
+    bool canShowTime = false;             // and in time
+    bool canPreview = false;              // it can draw without ray tracing
+    double focusDistance = 0;             // that makes sharp what was picked last
+    std::uint64_t focusSerial = 0;        // grows with each pick that met something
+    std::uint64_t historySerial = 0;      // grows when a run is added to the history
+    double slowestAnswer = 0;             // seconds from a change of camera or settings to the first picture of it
 };
 
+enum class SavedPicture { Raw, Denoised, Both };
 struct SaveRequest {
     std::vector<std::string> files{}; // the extension decides the format
     std::vector<Aov> aovs{};          // beside each of them
     std::string stats{};              // the statistics; "-": standard output, empty: none
     float exposure = 0;
     Tonemap tonemap = Tonemap::None;
+    SavedPicture what = SavedPicture::Raw; // Both: the denoised one beside the raw one
     bool operator==(const SaveRequest&) const = default;
 };
 

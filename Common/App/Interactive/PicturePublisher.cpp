@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "Common/App/Interactive/Draft.h"
+#include "Common/Image/FilmRows.h"
 #include "Common/Render/FilmEstimate.h"
 #include "Common/Render/RenderParams.h"
 
@@ -83,14 +84,21 @@ void PicturePublisher::discardViews() {
     fineRows_ = 0;
 }
 
-void PicturePublisher::begin() {
+void PicturePublisher::begin(Engine& engine) {
     shownSamples_ = 0;
     sinceBegin_ = {};
+    denoised_ = nullptr;
+    told_ = {};
+    rawEstimate_.reset();
+    denoisedError_.reset();
+    filter_.begin(engine);
 }
 
 void PicturePublisher::showDraft(const FilmRun& draft, const RenderSettings& film) {
-    draft_ = draft.engine().snapshot().radiance;
     Picture picture;
+    const PictureFilter::Pointer denoised = isFiltered() ? filter_.filterDraft(draft) : nullptr;
+    picture.isDenoised = picture.isLive = isDraftDenoised_ = denoised != nullptr;
+    draft_ = denoised ? denoised->images.picture : draft.engine().snapshot().radiance;
     picture.image = picture.radiance = std::make_shared<image::Image>(enlarge(draft_, film.width, film.height));
     if (showsFeatures(view_.mode)) {
         AovImages features;
@@ -105,7 +113,7 @@ void PicturePublisher::showDraft(const FilmRun& draft, const RenderSettings& fil
     recordLatency();
 }
 
-void PicturePublisher::show(const FilmRun& film, FilmReference& reference, const RenderSpeed& speed) {
+void PicturePublisher::show(const FilmRun& film, FilmReference& reference, const RenderSpeed& speed, Haste haste) {
     if (film.status().samplesDone == 0 && !hasDraft()) return;
     const Stopwatch watch;
     Engine& engine = film.engine();
@@ -115,34 +123,89 @@ void PicturePublisher::show(const FilmRun& film, FilmReference& reference, const
     Picture picture;
     picture.spp = snapshot.minSamples();
     if (picture.spp > 0 && isAdaptive(film.settings())) picture.spp = film.status().samplesDone / film.pixels();
-    if (picture.spp == 0 && hasDraft()) fillFromDraft(*radiance, snapshot.tileSamples, draft_);
+    if (picture.spp == 0 && hasDraft()) showDraftAround(snapshot.tileSamples, *radiance, picture);
     if (picture.spp > 0) reference.follow(film, *radiance);
     picture.image = picture.radiance = std::move(radiance);
+    if (picture.spp > 0) denoise(film, haste, picture);
     if (const ViewPointer view = viewOf(film, picture, reference, speed)) put(view, picture);
     if (view_.inspect) {
         picture.samples = std::make_shared<image::Image>(engine.film().sampleCounts());
         if (hasVariance(engine.film()))
             picture.variance = std::make_shared<image::Image>(engine.film().varianceOfMean());
     }
+    const double seconds = watch.seconds();
+    publish(film, reference, std::move(picture));
+    // A view that was made now does not come again, and final denoised pictures have a share of their own.
+    if (featureView_ == viewBefore && !filter_.hasMadeFinal()) showSeconds_ = seconds;
+    shownSamples_ = film.status().samplesDone;
+    sinceShown_ = {};
+}
+
+bool PicturePublisher::isFiltered() const {
+    return view_.denoise && !showsFeatures(view_.mode) && view_.mode != ViewMode::Noise;
+}
+
+// A denoised draft is better to look at than a few tiles of noise in it.
+void PicturePublisher::showDraftAround(std::span<const std::uint64_t> tileSamples, image::Image& radiance,
+                                       Picture& picture) {
+    picture.isDenoised = picture.isLive = isDraftDenoised_ && view_.denoise;
+    if (picture.isDenoised)
+        radiance = enlarge(draft_, radiance.width, radiance.height);
+    else
+        fillFromDraft(radiance, tileSamples, draft_);
+}
+
+// In place of the radiance, also a half of it.
+void PicturePublisher::denoise(const FilmRun& film, Haste haste, Picture& picture) {
+    denoised_ = isFiltered() ? filter_.update(film, haste, wantsDetails()) : view_.denoise ? filter_.last() : nullptr;
+    picture.isDenoised = denoised_ != nullptr;
+    picture.isLive = denoised_ && denoised_->quality == DenoiseQuality::Live;
+    if (denoised_) picture.image = picture.values = {denoised_, &denoised_->images.picture};
+    if (view_.mode != ViewMode::HalfA && view_.mode != ViewMode::HalfB) return;
+    const bool isA = view_.mode == ViewMode::HalfA;
+    const image::Image* half = !denoised_ ? nullptr : isA ? &denoised_->images.halfA : &denoised_->images.halfB;
+    if (half != nullptr && !half->data.empty())
+        picture.image = {denoised_, half};
+    else if (!view_.denoise && film.settings().replicates % kHalves == 0)
+        picture.image = std::make_shared<image::Image>(toImage(halfRows(film.engine().film(), isA ? 0 : 1)));
+    picture.values = picture.image;
+}
+
+// The errors of the raw picture and of the denoised one: against the reference, or estimated when that is of use.
+void PicturePublisher::publish(const FilmRun& film, const FilmReference& reference, Picture picture) {
     const EngineReport report = film.report();
-    std::optional<double> relmse;
-    if (!reference.curve().empty())
+    const bool isFinal = denoised_ && denoised_->quality == DenoiseQuality::Final;
+    const Told now{denoised_, reference.fits() ? reference.shared() : nullptr};
+    const bool isNew = std::exchange(told_, now) != now;
+    std::optional<double> relmse = rawEstimate_, denoised = denoisedError_;
+    if (isNew) denoised.reset();
+    if (isNew && denoised_ && picture.spp > 0) {
+        if (const auto measured = reference.compare(denoised_->images.picture))
+            denoised = measured->relmse;
+        else if (isFinal)
+            denoised = denoised_->images.relmse.value;
+    }
+    if (!reference.curve().empty()) {
         relmse = reference.curve().back().relmse;
-    else if (film.status().finished)
-        if (const auto estimated = estimateRelMse(engine.film(), dependentSide(report.features)))
-            relmse = estimated->value;
+    } else if (film.status().finished || (isNew && isFinal)) {
+        const auto estimated = estimateRelMse(film.engine().film(), dependentSide(report.features));
+        relmse = estimated ? std::optional(estimated->value) : std::nullopt;
+    } else if (isNew) {
+        relmse.reset();
+    }
+    rawEstimate_ = relmse;
+    denoisedError_ = denoised;
     state_.update([&](SessionState& state) {
         put(std::move(picture), state);
         state.status = film.status();
         state.renderSeconds = state.seconds.render = film.seconds();
         state.report = report;
         state.relmse = relmse;
+        state.denoisedRelmse = denoised;
+        state.denoiseSeconds = denoised_ ? denoised_->seconds : 0;
         state.curve = reference.curve();
     });
     recordLatency();
-    if (featureView_ == viewBefore) showSeconds_ = watch.seconds(); // a view that was made now does not come again
-    shownSamples_ = film.status().samplesDone;
-    sinceShown_ = {};
 }
 
 ViewImage PicturePublisher::featureView(Engine& engine, std::uint32_t spp, AovImages& features) const {
@@ -192,7 +255,12 @@ PicturePublisher::ViewPointer PicturePublisher::viewOf(const FilmRun& film, cons
     if (view_.mode == ViewMode::Noise && hasVariance(film.engine().film()))
         return std::make_shared<ViewImage>(showNoise(film.engine().film(), view_.scale));
     if (view_.mode == ViewMode::Error && reference.fits() && picture.spp > 0)
-        return std::make_shared<ViewImage>(showError(*picture.radiance, reference.image(), view_.scale));
+        return std::make_shared<ViewImage>(showError(*picture.image, reference.image(), view_.scale));
+    const bool hasDetails = denoised_ && !denoised_->images.error.data.empty();
+    if (view_.mode == ViewMode::DenoisedError && hasDetails)
+        return std::make_shared<ViewImage>(showDenoisedError(denoised_->images, view_.scale));
+    if (view_.mode == ViewMode::Bandwidth && hasDetails)
+        return std::make_shared<ViewImage>(showBandwidth(denoised_->images));
     return nullptr;
 }
 

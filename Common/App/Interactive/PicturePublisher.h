@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "Common/App/Interactive/FilmPlan.h"
 #include "Common/App/Interactive/FilmReference.h"
+#include "Common/App/Interactive/PictureFilter.h"
 #include "Common/App/Interactive/PublishedState.h"
 #include "Common/Render/FilmRun.h"
 
@@ -13,7 +15,9 @@ namespace rt::app {
 
 class PicturePublisher {
   public:
-    PicturePublisher(PublishedState& state, bool drawnBySoftware) : state_(state), drawnBySoftware_(drawnBySoftware) {}
+    // `cancel` calls filters off.
+    PicturePublisher(PublishedState& state, bool drawnBySoftware, const std::atomic<bool>& cancel)
+        : state_(state), filter_(state, cancel), drawnBySoftware_(drawnBySoftware) {}
 
     // The latency is that from the first change that nothing is shown of to the first picture of it.
     void awaitPicture(const std::optional<Stopwatch>& changed);
@@ -27,10 +31,19 @@ class PicturePublisher {
     void discardDraft() { draft_ = {}; }
     bool hasDraft() const { return !draft_.data.empty(); }
     void showDraft(const FilmRun& draft, const RenderSettings& film); // enlarged to the film's size
-    void begin();
+    void begin(Engine& engine);
 
     // The film so far, where it has no samples yet as the draft; without any, what was shown before stays.
-    void show(const FilmRun& film, FilmReference& reference, const RenderSpeed& speed);
+    void show(const FilmRun& film, FilmReference& reference, const RenderSpeed& speed, Haste haste);
+    // Of the denoiser: it could make a better picture of the film as it is; seconds that it takes for a pixel of a draft,
+    // if it is on; the engine has begun the film anew; it begins something else; it goes, or gets another scene.
+    bool isFiltering(const FilmRun& film) const { return isFiltered() && filter_.canImprove(film, wantsDetails()); }
+    std::optional<double> denoiseSecondsPerPixel() const {
+        return isFiltered() ? filter_.liveSecondsPerPixel() : std::nullopt;
+    }
+    void filterAnew(Engine& engine) { filter_.begin(engine); }
+    void endFilter() { filter_.end(); }
+    void forgetEngine() { filter_.forget(); }
     // A view of features is shown at once, with as many samples as there is time for, and then refined row by row until
     // it has as many as its file.
     bool isRefining() const { return fineRows_ < featureRows(); }
@@ -47,6 +60,11 @@ class PicturePublisher {
     using ViewPointer = std::shared_ptr<const ViewImage>;
 
     double interval(const RenderRequest& request) const;
+    bool isFiltered() const; // what the view shows
+    bool wantsDetails() const { return showsDenoiser(view_.mode); }
+    void showDraftAround(std::span<const std::uint64_t> tileSamples, image::Image& radiance, Picture& picture);
+    void denoise(const FilmRun& film, Haste haste, Picture& picture);
+    void publish(const FilmRun& film, const FilmReference& reference, Picture picture);
     // The features that it shows are left in `features`; what pixels cost is none of them.
     ViewImage featureView(Engine& engine, std::uint32_t spp, AovImages& features) const;
     std::uint32_t featureRows() const; // of features_; none where they are not shown
@@ -55,6 +73,8 @@ class PicturePublisher {
     void recordLatency();
 
     PublishedState& state_;
+    PictureFilter filter_;
+    PictureFilter::Pointer denoised_; // of the film, or none
     bool drawnBySoftware_;
     std::optional<Stopwatch> awaited_;
     ViewRequest view_;
@@ -64,6 +84,14 @@ class PicturePublisher {
     std::uint32_t fineRows_ = 0; // of them, that have as many samples as in files
     std::uint32_t rowsAtATime_ = 1;
     image::Image draft_;
+    bool isDraftDenoised_ = false;
+    std::optional<double> rawEstimate_, denoisedError_; // that were told last, and of what
+    struct Told {
+        PictureFilter::Pointer denoised;
+        std::shared_ptr<const image::Image> reference;
+        bool operator==(const Told&) const = default;
+    };
+    Told told_;
     Preview preview_;
     Stopwatch sinceBegin_;
     Stopwatch sinceShown_;

@@ -73,6 +73,7 @@ void forEachLaterField(Record&& r, const Visit& visit) {
     visit("/specular_connections", "specular_connections", r.specularConnections);
     visit("/edge_rays", "edge_rays", r.edgeRays);
     visit("/path_reuse", "path_reuse", r.pathReuse);
+    visit("/replicates", "replicates", r.replicates);
 }
 
 // Likewise, but no part of the work.
@@ -90,6 +91,7 @@ RunRecord fromJson(const nlohmann::json& json) {
     if (r.specularConnections.empty()) r.specularConnections = nameOf(kSpecularConnections, false);
     if (r.edgeRays.empty()) r.edgeRays = nameOf(kEdgeRays, false);
     if (r.pathReuse.empty()) r.pathReuse = nameOf(kPathReuse, PathReuse::Off);
+    if (r.replicates.empty()) r.replicates = RunRecord().replicates;
     r.referenceError = json.value(kReferenceError, 0.0);
     r.isSoftware = json.value(kSoftware, false);
     for (const nlohmann::json& point : json.at("curve")) r.curve.push_back({point.at(0), point.at(1)});
@@ -178,7 +180,8 @@ std::vector<WorkField> workOf(const RunRecord& r) {
             {"Adaptive", r.adaptive},
             {"Glass connections", r.specularConnections},
             {"Edge rays", r.edgeRays},
-            {"Path reuse", r.pathReuse}};
+            {"Path reuse", r.pathReuse},
+            {"Replicates", r.replicates}};
 }
 
 bool isSameWork(const RunRecord& a, const RunRecord& b) {

@@ -23,6 +23,7 @@ struct RunRecord {
     std::string sceneHash, camera; // 16 hexadecimal digits; JSON as a window copies it
     std::string lightSelection, sphereLight, quadLight, triangleLight, russianRoulette, oneSidedLights, adaptive,
         specularConnections, edgeRays, pathReuse;
+    std::string replicates = "1"; // what earlier programs did not write, as they had seldom more
     double relmse = 0;
     bool isSoftware = false;   // the device is a driver that works on the processor
     bool hasReference = false; // relmse is against a reference; otherwise the film's own estimate

@@ -21,7 +21,10 @@ ReferenceKey keyOf(const FilmSubject& subject, const RenderSettings& film) {
 } // namespace
 
 SessionFilm::SessionFilm(const SessionSetup& setup, const Mailbox& mailbox, PublishedState& state)
-    : publisher(state, setup.drawnBySoftware), setup_(setup), mailbox_(mailbox), state_(state) {}
+    : publisher(state, setup.drawnBySoftware, mailbox.cancelled(Cancel::Slice)),
+      setup_(setup),
+      mailbox_(mailbox),
+      state_(state) {}
 
 void SessionFilm::change() {
     isStale_ = true;
@@ -31,6 +34,7 @@ void SessionFilm::change() {
 
 void SessionFilm::discard() {
     isStale_ = true;
+    publisher.forgetEngine();
     run_.reset();
 }
 
@@ -45,12 +49,19 @@ bool SessionFilm::goOn(const FilmSubject& subject) {
     const std::uint32_t spp = std::exchange(wanted.spp, run_->settings().spp);
     // Whether the number is known matters to films that are made for it alone.
     const bool isKnown = std::exchange(wanted.sppIsKnown, run_->settings().sppIsKnown);
+    if (!subject.request.halves && run_->settings().replicates == kHalves && wanted.replicates == 1) {
+        wanted.replicates = kHalves; // that nobody asks for any more, and that do no harm
+        wanted.secondMoments = run_->settings().secondMoments;
+    }
     if (wanted != run_->settings() || !run_->canTake(spp)) return false;
     wanted.sppIsKnown = isKnown;
     if (isMadeForSpp(wanted) != isMadeForSpp(run_->settings())) return false;
     // The files of features have another number of samples then.
     if (std::min(spp, run_->settings().spp) < kAovSamples && spp != run_->settings().spp) publisher.discardViews();
-    if (spp != run_->settings().spp) run_->setSpp(spp);
+    if (spp != run_->settings().spp) {
+        run_->setSpp(spp);
+        publisher.filterAnew(subject.engine);
+    }
     // What is left of the time; where it was used up, as much again.
     std::optional<double> seconds = subject.request.timeLimit;
     if (seconds && run_->seconds() < *seconds) *seconds -= run_->seconds();
@@ -60,6 +71,10 @@ bool SessionFilm::goOn(const FilmSubject& subject) {
         state.status = run_->status();
     });
     return true;
+}
+
+bool SessionFilm::hasHalves() const {
+    return isStale_ || run_->settings().replicates % 2 == 0 || run_->settings().spp < kHalves;
 }
 
 bool SessionFilm::hasFirstSamples() const {
@@ -85,12 +100,12 @@ std::optional<StopReason> SessionFilm::slice(const FilmSubject& subject) {
     return ended;
 }
 
-void SessionFilm::show() {
-    if (!isStale_) publisher.show(*run_, reference, speed_);
+void SessionFilm::show(Haste haste) {
+    if (!isStale_) publisher.show(*run_, reference, speed_, haste);
 }
 
 void SessionFilm::showIfDue(const RenderRequest& request) {
-    if (!isStale_ && publisher.isDue(*run_, request)) show();
+    if (!isStale_ && publisher.isDue(*run_, request)) show(Haste::Converging);
 }
 
 void SessionFilm::refine() {
@@ -136,9 +151,10 @@ void SessionFilm::start(const FilmSubject& subject) {
 // Something to look at at once, where the first samples of the whole image would take longer.
 void SessionFilm::renderDraft(const FilmSubject& subject, const RenderSettings& settings) {
     publisher.discardDraft();
-    const auto small = draftSettings(settings, speed_);
+    const auto small = draftSettings(settings, speed_, publisher.denoiseSecondsPerPixel());
     if (!small) return;
     run_.reset();
+    publisher.endFilter();
     FilmRun draft(subject.engine, subject.camera, *small);
     renderFirst(draft, setup_.sliceSeconds, std::numeric_limits<double>::infinity());
     if (draft.status().finished) publisher.showDraft(draft, settings);
@@ -171,7 +187,8 @@ void SessionFilm::begin(const FilmSubject& subject, RenderSettings settings) {
         run_->limit({.seconds = subject.request.timeLimit, .targetError = subject.request.targetError});
     }
     isStale_ = false;
-    publisher.begin();
+    run_->watch();
+    publisher.begin(subject.engine);
     reference.begin(view);
     findReference();
     const EngineReport report = subject.engine.report();
@@ -184,6 +201,7 @@ void SessionFilm::begin(const FilmSubject& subject, RenderSettings settings) {
         state.isReferenceRender = reference.renderedSpp().has_value();
         state.referenceFits = reference.fits();
         state.relmse.reset();
+        state.denoisedRelmse.reset();
         state.curve.clear();
     });
 }

@@ -39,13 +39,19 @@ class SessionFilm {
     bool isFinished() const { return run_ && run_->status().finished; } // it has all its samples
     bool hasFirstSamples() const;                                       // of all pixels, and is not stale
     const std::optional<FilmRun>& run() const { return run_; }
+    bool hasHalves() const; // for a denoiser, or cannot have them; a stale one will have what is wanted
 
     // A film is not begun where its draft has been seen and the camera moves on; this does it.
     void beginPostponed(const FilmSubject& subject);
     // A little more of the film, begun where it is stale. Returns what has ended it, if anything has.
     std::optional<StopReason> slice(const FilmSubject& subject);
-    void show(); // unless it is stale
+    void show(Haste haste = Haste::AtOnce); // unless it is stale
     void showIfDue(const RenderRequest& request);
+    // What is shown is not what the denoiser makes of it at rest; filter() changes that, or is called off.
+    bool isFiltering() const { return !isStale_ && publisher.isFiltering(*run_); }
+    void filter() {
+        if (isFiltering()) show(Haste::AtRest);
+    }
     bool isRefining() const { return !isStale_ && publisher.isRefining(); } // what is shown
     void refine();
 

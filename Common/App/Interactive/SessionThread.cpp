@@ -62,8 +62,9 @@ void SessionThread::apply(Requests requests) {
     const bool isBroken = !engine_ || (activity_ == Activity::Failed && needEngine);
     if (isBroken || (requests.engine && *requests.engine != choice_)) makeEngine(requests.engine.value_or(choice_));
     if (requests.request) {
-        const bool isAnother = needsAnotherFilm(request_, *requests.request);
-        const bool isOnlyMore = isAnother && differsInBudgetsAlone(request_, *requests.request);
+        const bool lacksHalves = requests.request->halves && isReady() && !film_.hasHalves();
+        const bool isAnother = needsAnotherFilm(request_, *requests.request) || lacksHalves;
+        const bool isOnlyMore = isAnother && !lacksHalves && differsInBudgetsAlone(request_, *requests.request);
         request_ = *requests.request;
         const bool goesOn = isOnlyMore && isReady() && film_.goOn(subject());
         if (goesOn && activity_ == Activity::Finished && !film_.isFinished()) setActivity(Activity::Rendering);
@@ -237,7 +238,7 @@ void SessionThread::setActivity(Activity activity) {
 
 void SessionThread::renderFilm() {
     if (film_.isRefining()) film_.refine();
-    if (!isActive()) return;
+    if (!isActive()) return film_.filter();
     const auto ended = film_.slice(subject());
     writeWaiting();
     ended ? finish(*ended) : film_.showIfDue(request_);

@@ -35,7 +35,10 @@ class SessionThread {
     bool isActive() const { return activity_ == Activity::Rendering; }
     bool isPreviewing() const { return previewIsWanted_ && engine_ && engine_->canPreview(); }
     bool isRetrying() const { return waitingEngine_ || waitingScene_; }
-    bool hasWork() const { return isReady() && (isPreviewing() ? previewIsStale_ : isActive() || film_.isRefining()); }
+    bool hasWork() const {
+        return isReady() &&
+               (isPreviewing() ? previewIsStale_ : isActive() || film_.isRefining() || film_.isFiltering());
+    }
 
     FilmSubject subject() const { return {*engine_, *loaded_.scene, camera_, request_}; } // requires isReady()
     void renderFilm();

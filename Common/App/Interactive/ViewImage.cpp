@@ -48,6 +48,18 @@ ViewImage show(const Legend& legend, const std::vector<float>& values, std::uint
     return view;
 }
 
+// The root of a squared error relative to the mean.
+ViewImage showDeviation(Legend::Quantity quantity, const image::Image& mean, const image::Image& squared,
+                        double scale) {
+    std::vector<float> relative(std::size_t{mean.width} * mean.height);
+    for (std::size_t i = 0; i < relative.size(); ++i) {
+        const float error = std::sqrt(std::max(0.0f, meanOf(&squared.data[3 * i])));
+        relative[i] = error / (std::abs(meanOf(&mean.data[3 * i])) + kFloor);
+    }
+    const float maximum = roundedUp(percentile(relative, 0.99)) / static_cast<float>(scale);
+    return show({quantity, maximum}, relative, mean.width, mean.height);
+}
+
 } // namespace
 
 AovRequest aovsFor(ViewMode mode) {
@@ -56,6 +68,11 @@ AovRequest aovsFor(ViewMode mode) {
     request.normal = mode == ViewMode::Normal;
     request.depth = mode == ViewMode::Depth;
     return request;
+}
+
+bool showsDenoiser(ViewMode mode) {
+    return mode == ViewMode::HalfA || mode == ViewMode::HalfB || mode == ViewMode::DenoisedError ||
+           mode == ViewMode::Bandwidth;
 }
 
 float Legend::level(float value) const {
@@ -87,15 +104,17 @@ ViewImage showFeatures(ViewMode mode, const AovImages& images) {
 }
 
 ViewImage showNoise(const image::Film& film, double scale) {
-    const image::Image mean = film.resolve();
-    const image::Image variance = film.varianceOfMean();
-    std::vector<float> relative(std::size_t{mean.width} * mean.height);
-    for (std::size_t i = 0; i < relative.size(); ++i) {
-        const float error = std::sqrt(std::max(0.0f, meanOf(&variance.data[3 * i])));
-        relative[i] = error / (std::abs(meanOf(&mean.data[3 * i])) + kFloor);
-    }
-    const float maximum = roundedUp(percentile(relative, 0.99)) / static_cast<float>(scale);
-    return show({Legend::Quantity::StandardError, maximum}, relative, mean.width, mean.height);
+    return showDeviation(Legend::Quantity::StandardError, film.resolve(), film.varianceOfMean(), scale);
+}
+
+ViewImage showDenoisedError(const image::Denoised& denoised, double scale) {
+    return showDeviation(Legend::Quantity::DenoisedError, denoised.picture, denoised.error, scale);
+}
+
+ViewImage showBandwidth(const image::Denoised& denoised) {
+    const image::Image& chosen = denoised.bandwidth;
+    return show({Legend::Quantity::Bandwidth, static_cast<float>(image::kDenoiseCandidates - 1)}, chosen.data,
+                chosen.width, chosen.height);
 }
 
 ViewImage showError(const image::Image& picture, const image::Image& reference, double scale) {

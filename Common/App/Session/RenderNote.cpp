@@ -41,6 +41,7 @@ Json argumentList(const Options& options, const scene::CameraDesc& camera, const
     add("--russian-roulette", nameOf(kOnOff, s.russianRoulette));
     add("--exposure", exactly(options.exposure));
     add("--tonemap", nameOf(kTonemaps, options.tonemap));
+    if (options.denoisedOnly) add("--denoise", "only");
     if (options.program == kGpuProgram) add("--engine", report.engine); // policies and threads make no difference
     if (options.region) {
         const Region& r = *options.region;
