@@ -215,11 +215,12 @@ void App::save() {
     if (!gui_.state.scene) return;
     app::SaveRequest request = filesOf(options_, gui_.exposure(), settings_.tonemap);
     request.stats.clear();
+    request.what = gui_.savedPicture();
     if (!file.empty()) {
         request.files = {file};
         request.aovs.clear();
     } else if (request.files.empty()) {
-        request.files = savePaths(settings_.saveFolder, gui_.state);
+        request.files = savePaths(settings_.saveFolder, gui_.state, request.what);
     }
     session_.save(std::move(request));
 }

@@ -135,6 +135,23 @@ void Gui::toggleHeatMap() {
     viewRequest.cost = hasNext ? app::Cost::Time : app::Cost::Rays;
 }
 
+app::SavedPicture Gui::savedPicture() const {
+    using app::SaveChoice;
+    using app::SavedPicture;
+    const bool hasHalves = !state.picture.isPreview && state.settings.replicates % 2 == 0;
+    switch (settings.saveChoice) {
+        case SaveChoice::Seen:
+            return state.picture.isDenoised ? SavedPicture::Denoised : SavedPicture::Raw;
+        case SaveChoice::Denoised:
+            return hasHalves ? SavedPicture::Denoised : SavedPicture::Raw;
+        case SaveChoice::Both:
+            return hasHalves ? SavedPicture::Both : SavedPicture::Raw;
+        case SaveChoice::Raw:
+            break;
+    }
+    return SavedPicture::Raw;
+}
+
 void Gui::toggleStatistics() {
     bool& isOpen = settings.openPanels["statistics"];
     settings.showStatistics = !(settings.showPanels && settings.showStatistics && isOpen);
@@ -154,7 +171,11 @@ void Gui::scaleInterface(float change) {
 
 std::string Gui::pictureTitle() const {
     if (state.picture.isPreview) return "preview";
-    return (isGpu ? "GPU, " : "CPU, ") + std::to_string(state.picture.spp) + " spp";
+    std::string title = (isGpu ? "GPU, " : "CPU, ") + std::to_string(state.picture.spp) + " spp";
+    if (state.picture.isDenoised && !state.picture.isDisplay) title += ", denoised";
+    if (viewRequest.mode == app::ViewMode::HalfA) title += ", half A";
+    if (viewRequest.mode == app::ViewMode::HalfB) title += ", half B";
+    return title;
 }
 
 void Gui::browse(BrowseFor what) {
@@ -182,7 +203,7 @@ void Gui::browse(BrowseFor what) {
                        "Save",
                        {".png", ".exr", ".hdr", ".pfm"},
                        saveFolder(settings.saveFolder),
-                       fs::path(savePaths(settings.saveFolder, state).front()).filename().string(),
+                       fs::path(savePaths(settings.saveFolder, state, savedPicture()).front()).filename().string(),
                        true};
             break;
         case BrowseFor::Export:

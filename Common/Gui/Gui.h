@@ -97,6 +97,7 @@ struct Gui {
     void followExport();
     void copyPose(); // of the camera, to the clipboard
     void pastePose();
+    app::SavedPicture savedPicture() const; // what a file gets: of a film without halves the raw one
     void toggleHeatMap();
     void toggleStatistics();
     void setRayTracing(bool on); // where there is a preview to show instead

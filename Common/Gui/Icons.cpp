@@ -79,6 +79,13 @@ void drawIcon(ImDrawList& list, Icon icon, ImVec2 corner, float side, ImU32 colo
             pen.line({{0.28f, 0.4f}, {0.5f, 0.64f}, {0.72f, 0.4f}});
             pen.line({{0.08f, 0.62f}, {0.08f, 0.92f}, {0.92f, 0.92f}, {0.92f, 0.62f}});
             break;
+        case Icon::Denoise: // grains at the left, none at the right
+            pen.line({{0.06f, 0.06f}, {0.94f, 0.06f}, {0.94f, 0.94f}, {0.06f, 0.94f}}, true);
+            pen.line({{0.5f, 0.06f}, {0.5f, 0.94f}});
+            for (const ImVec2 grain : {ImVec2{0.2f, 0.22f}, ImVec2{0.36f, 0.38f}, ImVec2{0.2f, 0.54f},
+                                       ImVec2{0.36f, 0.7f}, ImVec2{0.2f, 0.82f}})
+                pen.disk(grain, 0.06f);
+            break;
         case Icon::Split:
             pen.frame({0.06f, 0.14f}, {0.94f, 0.86f});
             pen.box({0.06f, 0.14f}, {0.5f, 0.86f});
@@ -125,16 +132,24 @@ void drawIcon(ImDrawList& list, Icon icon, ImVec2 corner, float side, ImU32 colo
 }
 
 bool iconButton(const char* id, Icon icon, const char* tip, bool isEnabled, bool isOn) {
+    return toggleButton(id, icon, "", tip, isEnabled, isOn, ImGui::GetFrameHeight());
+}
+
+bool toggleButton(const char* id, Icon icon, const char* text, const char* tip, bool isEnabled, bool isOn,
+                  float width) {
     const float side = ImGui::GetFrameHeight(), size = kIconShare * side;
     ImGui::PushID(id);
     if (isOn) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-    const bool pressed = button("##icon", tip, isEnabled, side);
+    const bool pressed = button("##icon", tip, isEnabled, width);
     if (isOn) ImGui::PopStyleColor();
     ImGui::PopID();
     const ImVec2 corner = ImGui::GetItemRectMin();
     const float margin = 0.5f * (side - size);
-    drawIcon(*ImGui::GetWindowDrawList(), icon, {corner.x + margin, corner.y + margin}, size,
-             ImGui::GetColorU32(isEnabled ? ImGuiCol_Text : ImGuiCol_TextDisabled));
+    const ImU32 ink = ImGui::GetColorU32(isEnabled ? ImGuiCol_Text : ImGuiCol_TextDisabled);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    drawIcon(list, icon, {corner.x + margin, corner.y + margin}, size, ink);
+    if (width > 1.5f * side)
+        list.AddText({corner.x + side, corner.y + 0.5f * (side - ImGui::GetTextLineHeight())}, ink, text);
     return pressed;
 }
 

@@ -22,6 +22,10 @@ std::string nameOf(app::Legend::Quantity quantity) {
             return "relative noise";
         case Quantity::Error:
             return "relative error";
+        case Quantity::DenoisedError:
+            return "denoised error";
+        case Quantity::Bandwidth:
+            return "bandwidth";
         case Quantity::Distance:
             return "distance";
         case Quantity::Rays:
@@ -51,7 +55,9 @@ std::vector<InspectedRow> inspectPixel(const app::Picture& picture, const image:
     }
     if (const float* shown = find(picture.values.get())) {
         const bool isOne = picture.values->channels == 1;
-        rows.push_back({picture.legend ? nameOf(picture.legend->quantity) : "view",
+        rows.push_back({picture.legend      ? nameOf(picture.legend->quantity)
+                        : picture.isDisplay ? "view"
+                                            : "shown",
                         isOne ? text("%.4g", *shown) : text(kPattern, shown[0], shown[1], shown[2]), "", ""});
     }
     rows.push_back(std::move(radiance));

@@ -22,7 +22,7 @@ void PinnedView::pin(const app::Picture& picture, app::ViewMode mode, std::strin
                      std::optional<app::RunRecord> work) {
     *this = {};
     pinned_ = shown_ = picture.image;
-    radiance_ = picture.radiance;
+    radiance_ = picture.isDisplay ? picture.radiance : picture.image; // raw, denoised or of a half
     isPinnedDisplay_ = isDisplay_ = picture.isDisplay;
     pinnedMode_ = picture.isDisplay ? mode : app::ViewMode::Picture;
     title_ = std::move(title);
@@ -50,7 +50,8 @@ void PinnedView::follow(const app::SessionState& state, const app::ViewRequest& 
     isFollowed_ = true;
     view_ = view;
     isSameView_ = true;
-    if (view.mode == app::ViewMode::Picture) {
+    using app::ViewMode;
+    if (view.mode == ViewMode::Picture || view.mode == ViewMode::HalfA || view.mode == ViewMode::HalfB) {
         shown_ = radiance_;
         isDisplay_ = false;
     } else if (view.mode == app::ViewMode::Error && isOfSize(reference_.get(), *radiance_)) {

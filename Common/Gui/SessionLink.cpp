@@ -8,6 +8,7 @@
 
 #include "Common/Gui/Panels/EnginePanel.h"
 #include "Common/Gui/Panels/SavePaths.h"
+#include "Common/Gui/Panels/ViewModes.h"
 #include "Common/Gui/UserFiles.h"
 #include "Common/Image/Display.h"
 
@@ -16,6 +17,7 @@ namespace rt::gui {
 app::InteractiveSession::Setup sessionSetup(const app::Options& options, const WindowProgram& program,
                                             app::GuiSettings& settings, bool drawnBySoftware, app::RunHistory& history,
                                             std::atomic<bool>& isNews) {
+    settings.request.halves = settings.denoise;
     settings.engine = servedChoice(settings.engine, program.devices, options); // what this machine has
     app::InteractiveSession::Setup setup;
     setup.options = options;
@@ -69,6 +71,8 @@ void SessionLink::take() {
     if (gui_.viewRequest.mode == app::ViewMode::Error && !state.referenceFits && !state.isReferenceRender) {
         gui_.viewRequest.mode = app::ViewMode::Picture; // there is nothing to compare with any more
     }
+    if (app::showsDenoiser(gui_.viewRequest.mode) && !isAvailable(gui_, gui_.viewRequest.mode))
+        gui_.viewRequest.mode = app::ViewMode::Picture; // there is nothing to show of it any more
     if (state.picture.image && state.picture.serial != pictureSerial_) {
         pictureSerial_ = state.picture.serial;
         presenter_.setPicture(state.picture.image);
@@ -126,6 +130,7 @@ void SessionLink::followFile() {
 }
 
 void SessionLink::send() {
+    gui_.settings.request.halves = gui_.viewRequest.denoise = gui_.settings.denoise;
     if (gui_.settings.request != sentRequest_) {
         sentRequest_ = gui_.settings.request;
         gui_.session.change(sentRequest_);

@@ -77,6 +77,7 @@ constexpr Shortcut kShortcuts[] = {
     {GLFW_KEY_F, When::Plain, [](Gui& gui) { gui.view = {}; }},
     {GLFW_KEY_B, When::Plain, holdPicture},
     {GLFW_KEY_V, When::Plain, compareOtherwise},
+    {GLFW_KEY_N, When::Plain, [](Gui& gui) { toggle(gui.settings.denoise); }},
     {GLFW_KEY_H, When::Plain, [](Gui& gui) { gui.toggleHeatMap(); }},
     {GLFW_KEY_P, When::Plain, [](Gui& gui) { gui.setRayTracing(!gui.settings.rayTracing); }},
     {GLFW_KEY_TAB, When::Plain, walkPanels},

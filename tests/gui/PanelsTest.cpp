@@ -95,14 +95,14 @@ TEST_P(SharedPanelsTest, MoreSamplesAndBudgetsAreAtHand) {
     EXPECT_TRUE(eventually([&] {
         key("F12");
         pause(500);
-        return isSaved("-4spp.exr");
+        return isSaved("-4spp-denoised.exr");
     })) << log();
     click(185, samplesRow() + 2 * kRow); // +100 spp
     EXPECT_TRUE(eventually([&] { return settings()["render"]["spp"] == 104; })) << settings();
     EXPECT_TRUE(eventually([&] {
         key("F12");
         pause(500);
-        return isSaved("-104spp.exr");
+        return isSaved("-104spp-denoised.exr");
     })) << log();
     const auto enter = [&](int row, const std::string& number) {
         click(247, samplesRow() + row * kRow);

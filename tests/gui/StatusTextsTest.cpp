@@ -81,6 +81,13 @@ TEST(ChipTexts, SayWhatThePictureIs) {
     EXPECT_EQ(chipTexts(state, true, true).back(), "relMSE 5.00e-02, estimated");
     state.curve.push_back({});
     EXPECT_EQ(chipTexts(state, true, true).back(), "relMSE 5.00e-02, measured");
+    state.picture.isDenoised = state.picture.isLive = true;
+    EXPECT_EQ(chipTexts(state, true, true)[3], "denoised, live");
+    state.picture.isLive = false;
+    state.denoisedRelmse = 0.002;
+    EXPECT_EQ(chipTexts(state, true, true),
+              (Texts{"GPU multi", "16 spp", "8.00 s", "denoised", "raw relMSE 5.00e-02, measured",
+                     "denoised relMSE 2.00e-03, measured"}));
     state.picture.isPreview = true;
     EXPECT_EQ(chipTexts(state, true, true), Texts{"GPU preview"});
 }

@@ -109,6 +109,7 @@ void forEachToggle(const Visit& visit, Settings& settings) {
     visit("show_comparison", settings.showComparison);
     visit("show_statistics", settings.showStatistics);
     visit("auto_exposure", settings.autoExposure);
+    visit("denoise", settings.denoise);
     visit("reload_scenes", settings.reloadScenes);
     visit("saw_first_steps", settings.sawFirstSteps);
     visit("ray_tracing", settings.rayTracing);
@@ -130,6 +131,7 @@ GuiSettings parseGuiSettings(std::string_view text) {
     const nlohmann::json json = nlohmann::json::parse(text, nullptr, false); // discarded where it is no JSON
     const Reader reader(json);
     reader.read("color_mode", kColorModes, settings.colorMode);
+    reader.read("save_choice", kSaveChoices, settings.saveChoice);
     reader.read("ui_scale", settings.uiScale, kMinUiScale, kMaxUiScale);
     reader.read("font", settings.font);
     forEachToggle([&reader](const char* key, bool& value) { reader.read(key, value); }, settings);
@@ -165,6 +167,7 @@ GuiSettings parseGuiSettings(std::string_view text) {
 std::string toText(const GuiSettings& s) {
     Json json{{"version", kSettingsVersion},
               {"color_mode", nameOf(kColorModes, s.colorMode)},
+              {"save_choice", nameOf(kSaveChoices, s.saveChoice)},
               {"ui_scale", s.uiScale},
               {"font", s.font},
               {"window_x", s.windowX},

@@ -16,6 +16,14 @@ enum class ColorMode { Dark, Light, HighContrast };
 inline constexpr Named<ColorMode> kColorModes[] = {
     {"dark", ColorMode::Dark}, {"light", ColorMode::Light}, {"high-contrast", ColorMode::HighContrast}};
 
+// Of the raw picture and the denoised one.
+enum class SaveChoice { Seen, Raw, Denoised, Both };
+inline constexpr Named<SaveChoice> kSaveChoices[] = {
+    {"seen", SaveChoice::Seen, "What is seen", "The denoised picture while that is shown, else the raw one"},
+    {"raw", SaveChoice::Raw, "Raw picture", "The mean of the samples"},
+    {"denoised", SaveChoice::Denoised, "Denoised picture", "Filtered once more for the file"},
+    {"both", SaveChoice::Both, "Both", "The denoised one beside the raw one, as NAME.denoised.png"}};
+
 inline constexpr float kMinUiScale = 0.75f;
 inline constexpr float kMaxUiScale = 3.0f;
 inline constexpr std::size_t kMaxRecent = 10; // files
@@ -32,9 +40,11 @@ struct GuiSettings {
     bool showComparison = false;
     bool showStatistics = true;
     std::map<std::string, bool>
-        openPanels;                     // whether each is folded out, by its id; others are as the table of panels says
-    float exposure = 0;                 // stops
-    bool autoExposure = false;          // on top of what suits the picture
+        openPanels;            // whether each is folded out, by its id; others are as the table of panels says
+    float exposure = 0;        // stops
+    bool autoExposure = false; // on top of what suits the picture
+    bool denoise = true;       // pictures with less noise, while they converge and after
+    SaveChoice saveChoice = SaveChoice::Seen;
     Tonemap tonemap = Tonemap::Neutral; // colours below white stay what they are
     bool reloadScenes = true;           // when their files change
     bool sawFirstSteps = false;         // the hint of the first run

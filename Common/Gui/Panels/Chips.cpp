@@ -79,13 +79,15 @@ std::pair<std::string, std::string> sideTexts(const Gui& gui) {
     std::string a = "A: " + sideTitle(gui.pinned.title(), gui.pinned.work(), work);
     std::string b = "B: " + sideTitle(gui.pictureTitle(), work, gui.pinned.work());
     if (a.substr(1) == b.substr(1)) a += ", pinned";
-    if (gui.viewRequest.mode != app::ViewMode::Picture) {
+    const bool isHalf = gui.viewRequest.mode == app::ViewMode::HalfA || gui.viewRequest.mode == app::ViewMode::HalfB;
+    if (gui.viewRequest.mode != app::ViewMode::Picture && !isHalf) { // of halves the titles tell
         const std::string view = std::string(", ") + rowOf(gui.viewRequest.mode).name;
         a += gui.pinned.isSameView() ? view : ", picture (no such view of it)";
         b += view;
     }
     if (gui.pinned.relmse()) a += ", relMSE " + errorText(*gui.pinned.relmse());
-    if (gui.state.relmse && !gui.state.curve.empty()) b += ", relMSE " + errorText(*gui.state.relmse);
+    const std::optional<double>& relmse = gui.state.picture.isDenoised ? gui.state.denoisedRelmse : gui.state.relmse;
+    if (relmse && !gui.state.curve.empty() && !isHalf) b += ", relMSE " + errorText(*relmse);
     return {std::move(a), std::move(b)};
 }
 

@@ -36,6 +36,8 @@ void drawFilePanel(Gui& gui) {
     drawRecent(gui);
     row("Save to", "Folder for F12; empty: your pictures folder, else the home folder");
     inputText("##folder", "pictures folder", gui.settings.saveFolder);
+    combo("Save which", "Of the raw and the denoised picture; a film without halves has the raw one alone",
+          app::kSaveChoices, gui.settings.saveChoice);
     drawErrorOf(gui, app::ErrorSource::Save);
     const bool hasPicture = gui.state.picture.image != nullptr;
     if (button("Save PNG and EXR", "F12 or Ctrl+S", hasPicture, width)) gui.saveRequested = true;

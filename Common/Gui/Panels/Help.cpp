@@ -17,6 +17,7 @@ constexpr HelpLine kLeft[] = {
     {nullptr, "Rendering"},
     {"Space", "start, pause, resume"},
     {"Ctrl+R", "restart"},
+    {"N", "denoised picture, raw picture"},
     {"B", "pin the picture for A/B, unpin it"},
     {"V", "A/B split, blink, difference"},
     {"H", "heat map: what each pixel costs"},
@@ -120,7 +121,7 @@ void drawFirstSteps(Gui& gui, const Rect& area) {
     if (ImGui::Begin("##first-steps", nullptr, kFlags)) {
         ImGui::TextDisabled("Three steps");
         ImGui::TextUnformatted("1  Choose a scene at the left, or by the keys 1 to 9");
-        ImGui::TextUnformatted("2  Drag in the picture to look at it from elsewhere");
+        ImGui::TextUnformatted("2  Drag in the picture to look at it from elsewhere; N shows it raw");
         ImGui::TextUnformatted("3  Press F3 to compare this run with others");
         if (ImGui::Button("Got it")) gui.showFirstSteps = false;
         ImGui::SameLine();

@@ -29,6 +29,10 @@ Measure measureOf(Legend::Quantity quantity, bool isGpu) {
             return {"Standard error in % of the value", 100};
         case Legend::Quantity::Error:
             return {"Error in % of the reference", 100};
+        case Legend::Quantity::DenoisedError:
+            return {"Estimated error of the denoised picture in % of the value", 100};
+        case Legend::Quantity::Bandwidth:
+            return {"Kept bandwidth: 0 small patches, 1 narrow, 2 wide, 3 raw", 1};
         case Legend::Quantity::Distance:
             return {"Distance in units of the scene", 1};
         case Legend::Quantity::Rays:

@@ -29,12 +29,13 @@ std::filesystem::path saveFolder(const std::string& folder) {
     return folder.empty() ? defaultFolder() : fs::path(folder);
 }
 
-std::vector<std::string> savePaths(const std::string& folder, const app::SessionState& state) {
+std::vector<std::string> savePaths(const std::string& folder, const app::SessionState& state, app::SavedPicture what) {
     const fs::path place = saveFolder(folder);
     std::string name = state.scene->id;
     for (char& c : name)
         if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '-';
     name += state.picture.isPreview ? "-preview" : "-" + std::to_string(state.picture.spp) + "spp";
+    if (what == app::SavedPicture::Denoised) name += "-denoised";
     for (int i = 1;; ++i) {
         const fs::path png = place / (name + (i > 1 ? "-" + std::to_string(i) : "") + ".png");
         const fs::path exr = fs::path(png).replace_extension(".exr");

@@ -15,7 +15,7 @@ namespace rt::gui {
 std::filesystem::path saveFolder(const std::string& folder);
 
 // For pictures without a name: a PNG and an EXR in saveFolder(folder); no such file exists yet.
-std::vector<std::string> savePaths(const std::string& folder, const app::SessionState& state);
+std::vector<std::string> savePaths(const std::string& folder, const app::SessionState& state, app::SavedPicture what);
 
 // What the program was asked for when it was started.
 app::SaveRequest filesOf(const app::Options& options, float exposure, app::Tonemap tonemap);

@@ -48,7 +48,12 @@ void drawStatisticsPanel(Gui& gui) {
            "All of them: camera, scattered and shadow, more from the camera at edges of lights, and those between "
            "neighbours' paths",
            perSecond(static_cast<double>(report.rays.all())));
-    figure("Render time", nullptr, shortDuration(seconds));
+    figure("Render time", "Of samples alone", shortDuration(seconds));
+    figure(
+        "Denoiser",
+        "Features and filter of the last denoised picture. They come between samples: neither the render time nor any "
+        "rate counts them",
+        state.denoiseSeconds > 0 ? shortDuration(state.denoiseSeconds) : "-");
     figure("Memory", "Of this process; and what the engine holds of scene and film",
            bytesText(app::residentBytes()) + ", engine " + bytesText(report.deviceBytes));
     figure("Engine", nullptr,

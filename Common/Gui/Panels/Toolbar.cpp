@@ -75,14 +75,16 @@ void drawRenderButtons(Gui& gui, bool isNarrow) {
         gui.session.reset();
 }
 
-float modesWidth() {
-    float width = -gap();
-    for (const ViewModeRow& mode : viewModes()) width += buttonWidth(mode.name) + gap();
-    return width;
+float modeMenuWidth() {
+    return buttonWidth("Denoised error") + ImGui::GetFrameHeight();
 }
 
-float modeMenuWidth() {
-    return buttonWidth("Heat map") + ImGui::GetFrameHeight();
+// Of buttons, and the menu for what the denoiser knows.
+float modesWidth() {
+    float width = modeMenuWidth();
+    for (const ViewModeRow& mode : viewModes())
+        if (!mode.isOfDenoiser) width += buttonWidth(mode.name) + gap();
+    return width;
 }
 
 void choose(Gui& gui, const ViewModeRow& mode) {
@@ -93,24 +95,41 @@ void choose(Gui& gui, const ViewModeRow& mode) {
     if (isOn) ImGui::PopStyleColor();
 }
 
-// A row of buttons, or a menu where there is no room.
-void drawModes(Gui& gui, float room) {
-    if (modesWidth() <= room) {
-        for (const ViewModeRow& mode : viewModes()) {
-            if (&mode != &viewModes().front()) beside();
-            choose(gui, mode);
-        }
-        return;
-    }
-    ImGui::SetNextItemWidth(std::max(1.0f, std::min(room, modeMenuWidth())));
-    if (!ImGui::BeginCombo("##mode", rowOf(gui.viewRequest.mode).name, ImGuiComboFlags_HeightLarge))
-        return tooltip("What is shown");
+void drawModeMenu(Gui& gui, const char* label, const char* tip, float width, bool isOfDenoiserAlone) {
+    ImGui::SetNextItemWidth(std::max(1.0f, width));
+    if (!ImGui::BeginCombo("##mode", label, ImGuiComboFlags_HeightLarge)) return tooltip(tip);
     for (const ViewModeRow& mode : viewModes()) {
-        const auto flags = isAvailable(gui, mode.mode) ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+        if (isOfDenoiserAlone && !mode.isOfDenoiser) continue;
+        const bool canBe = isAvailable(gui, mode.mode);
+        const auto flags = canBe ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
         if (ImGui::Selectable(mode.name, mode.mode == gui.viewRequest.mode, flags)) gui.viewRequest.mode = mode.mode;
-        tooltip(mode.tip);
+        tooltip((std::string(mode.tip) + (canBe ? "" : std::string("\n") + mode.missing)).c_str());
     }
     ImGui::EndCombo();
+}
+
+// A row of buttons with a menu at its end, or only a menu where there is no room.
+void drawModes(Gui& gui, float room) {
+    const ViewModeRow& shown = rowOf(gui.viewRequest.mode);
+    if (modesWidth() > room)
+        return drawModeMenu(gui, shown.name, "What is shown", std::min(room, modeMenuWidth()), false);
+    for (const ViewModeRow& mode : viewModes()) {
+        if (mode.isOfDenoiser) continue;
+        choose(gui, mode);
+        beside();
+    }
+    drawModeMenu(gui, shown.isOfDenoiser ? shown.name : "Halves, error", "What the denoiser knows beside the picture",
+                 modeMenuWidth(), true);
+}
+
+// What is counted is said where it is turned on: raw samples are compared with raw samples.
+void drawDenoise(Gui& gui, float width) {
+    if (toggleButton("denoise", Icon::Denoise, "Denoise",
+                     "Shows the picture with less noise, or the raw one (N). The film stays what it is, but for two "
+                     "halves of its samples that know nothing of each other.\n"
+                     "The filter works between samples: render time, rates and the comparison of engines leave it out",
+                     !gui.state.picture.isPreview, gui.settings.denoise, width))
+        gui.settings.denoise = !gui.settings.denoise;
 }
 
 void drawRight(Gui& gui) {
@@ -140,16 +159,20 @@ void drawToolbar(Gui& gui) {
     const float icon = ImGui::GetFrameHeight(), all = ImGui::GetContentRegionAvail().x;
     const float left = ImGui::GetCursorPosX();
     const float right = kRightIcons * icon + (kRightIcons - 1) * gap();
-    // Badge, start, stop, restart; A/B, save, open; the gaps between groups.
-    const float fixed = buttonWidth("GPU") + 6 * icon + 12 * gap() + right;
-    const bool isNarrow = all - fixed - ImGui::CalcTextSize("Resume").x < modeMenuWidth();
+    // Badge, start, stop, restart; denoise, A/B, save, open; the gaps between groups.
+    const float fixed = buttonWidth("GPU") + 7 * icon + 13 * gap() + right;
+    const float words = ImGui::CalcTextSize("Resume").x + ImGui::CalcTextSize("Denoise").x + 2 * gap();
+    const bool isNarrow = all - fixed - words < modeMenuWidth();
+    const float denoise = isNarrow ? icon : icon + ImGui::CalcTextSize("Denoise").x + 2 * gap();
     drawBadge(gui);
     apart();
     drawRenderButtons(gui, isNarrow);
     apart();
     const float used = ImGui::GetCursorPosX() - left;
-    drawModes(gui, all - used - 3 * icon - 8 * gap() - right);
+    drawModes(gui, all - used - denoise - 3 * icon - 9 * gap() - right);
     apart();
+    drawDenoise(gui, denoise);
+    beside();
     if (iconButton("split", Icon::Split,
                    gui.pinned ? "Unpins the picture that is compared with (B)"
                               : "Pins the picture for A/B comparison with the next one (B)",

@@ -8,6 +8,9 @@ namespace {
 
 using app::ViewMode;
 
+constexpr const char* kNoHalves = "This film has no two halves of its samples: turn the denoiser on (N)";
+constexpr const char* kNotDenoised = "It needs the denoiser (N)";
+
 constexpr ViewModeRow kModes[] = {
     {"Picture", ViewMode::Picture, "Radiance, with exposure and tone mapping", ""},
     {"Albedo", ViewMode::Albedo, "Colour of the first surface", ""},
@@ -18,6 +21,16 @@ constexpr ViewModeRow kModes[] = {
      "It needs a reference: see Comparison (F3)"},
     {"Heat map", ViewMode::Heat, "What each pixel costs, in rays or time, on a logarithmic scale (H)",
      "This engine does not know what a pixel costs"},
+    {"Half A", ViewMode::HalfA,
+     "The picture of one half of the samples, denoised if that is on. Pin it (B) and look at the other half: where "
+     "both "
+     "differ the picture is not certain",
+     kNoHalves, true},
+    {"Half B", ViewMode::HalfB, "The picture of the other half of the samples", kNoHalves, true},
+    {"Denoised error", ViewMode::DenoisedError, "Estimated error of each denoised pixel relative to its value",
+     kNotDenoised, true},
+    {"Kept bandwidth", ViewMode::Bandwidth,
+     "Which filter each denoised pixel keeps: 0 of small patches, 1 narrow, 2 wide, 3 none", kNotDenoised, true},
 };
 
 } // namespace
@@ -35,6 +48,9 @@ bool isAvailable(const Gui& gui, ViewMode mode) {
     if (gui.state.picture.isPreview) return mode == ViewMode::Picture;
     if (mode == ViewMode::Error) return gui.state.referenceFits;
     if (mode == ViewMode::Heat) return gui.state.canShowCost;
+    const bool hasHalves = gui.state.settings.replicates % 2 == 0;
+    if (mode == ViewMode::HalfA || mode == ViewMode::HalfB) return hasHalves;
+    if (app::showsDenoiser(mode)) return hasHalves && gui.settings.denoise;
     return true;
 }
 

@@ -11,6 +11,7 @@ struct ViewModeRow {
     app::ViewMode mode;
     const char* tip;
     const char* missing; // why it cannot be shown, where it cannot
+    bool isOfDenoiser = false;
 };
 std::span<const ViewModeRow> viewModes();
 const ViewModeRow& rowOf(app::ViewMode mode);

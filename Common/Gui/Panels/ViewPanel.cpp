@@ -23,10 +23,11 @@ void drawViewOptions(Gui& gui) {
               kCostNames, view.cost);
     }
     {
-        const Disabled none(view.mode != ViewMode::Noise && view.mode != ViewMode::Error && view.mode != ViewMode::Heat,
+        const Disabled none(view.mode != ViewMode::Noise && view.mode != ViewMode::Error &&
+                                view.mode != ViewMode::Heat && view.mode != ViewMode::DenoisedError,
                             "the view has no scale");
         sliderReal("Scale",
-                   "Of noise, error and heat map: divides the value of the brightest colour, which the legend "
+                   "Of noise, errors and heat map: divides the value of the brightest colour, which the legend "
                    "tells",
                    view.scale, 0.1, 100, "%.2f", true);
     }
