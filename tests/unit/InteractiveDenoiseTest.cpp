@@ -165,6 +165,7 @@ TEST_F(InteractiveDenoiseTest, WhateverIsWantedCallsTheFilterOff) {
     InteractiveSession::Setup wanted = denoising(4);
     wanted.makeEngine = [](const EngineChoice&) { return std::make_unique<EndlessFilterEngine>(); };
     InteractiveSession session(wanted);
+    session.view(viewOf(ViewMode::Picture, false));
     ASSERT_TRUE(reaches(session, isFinished));
     session.view(viewOf(ViewMode::Picture));
     const auto isBusy = [](int times) {
@@ -216,7 +217,8 @@ TEST(FilmPlanHalves, TheReplicatesAreEvenInNumberWhereThereAreSamplesForThem) {
 TEST(FilmPlanHalves, ADenoisedDraftTakesNoLonger) {
     RenderSettings film;
     film.replicates = 2;
-    const RenderSpeed speed; // 200,000 samples a second
+    RenderSpeed speed;
+    speed.learn(200'000, 1, 1);
     for (const double filter : {0.0, 1e-6, 1e-5}) {
         const auto draft = draftSettings(film, speed, filter);
         ASSERT_TRUE(draft);

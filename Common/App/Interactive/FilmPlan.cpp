@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kFrameSeconds = 1.0 / 30; // of a frame that is not accumulated and as large as there is time for
 constexpr double kDraftSeconds = 0.02; // of what is shown first after a change, which may wait for the end of another
-constexpr std::uint32_t kDraftSpp = 4; // at most
+constexpr double kFirstDraftSeconds = 0.1; // of the very first, by the guess: no camera moves yet
+constexpr std::uint32_t kDraftSpp = 4;     // at most
 
 double pixelsOf(const RenderSettings& settings) {
     return static_cast<double>(settings.width) * settings.height;
@@ -19,6 +20,7 @@ double pixelsOf(const RenderSettings& settings) {
 } // namespace
 
 void RenderSpeed::learn(std::uint64_t samples, double seconds, double weight) {
+    isLearnt_ = true;
     perSecond_ = (1 - weight) * perSecond_ + weight * static_cast<double>(samples) / std::max(seconds, 1e-4);
 }
 
@@ -53,17 +55,18 @@ RenderSettings filmSettings(const RenderRequest& request, const scene::CompiledS
 
 std::optional<RenderSettings> draftSettings(const RenderSettings& film, const RenderSpeed& speed,
                                             std::optional<double> denoiseSecondsPerPixel) {
-    double affordable = speed.samplesIn(kDraftSeconds);
+    const double budget = speed.isLearnt() ? kDraftSeconds : kFirstDraftSeconds;
+    double affordable = speed.samplesIn(budget);
     if (affordable >= static_cast<double>(firstPass(film))) return std::nullopt;
     const bool isDenoised = denoiseSecondsPerPixel && film.replicates % kHalves == 0;
     if (isDenoised) // the pixels of two samples that there is time for
-        affordable = kDraftSeconds / (kHalves * kDraftSeconds / affordable + *denoiseSecondsPerPixel);
+        affordable = budget / (kHalves * budget / affordable + *denoiseSecondsPerPixel);
     const double scale = std::sqrt(std::min(1.0, affordable / pixelsOf(film)));
     const auto scaled = [scale](std::uint32_t side) { return std::max(1u, static_cast<std::uint32_t>(side * scale)); };
     RenderSettings draft = film;
     draft.width = scaled(film.width);
     draft.height = scaled(film.height);
-    draft.spp = speed.sppIn(kDraftSeconds, film, kDraftSpp);
+    draft.spp = speed.sppIn(budget, film, kDraftSpp);
     draft.adaptive = false;
     draft.replicates = isDenoised ? kHalves : 1;
     if (isDenoised) draft.spp = kHalves;

@@ -13,12 +13,14 @@ inline constexpr std::uint32_t kHalves = 2; // replicates, that a denoiser needs
 class RenderSpeed {
   public:
     void learn(std::uint64_t samples, double seconds, double weight = 0.5);
+    bool isLearnt() const { return isLearnt_; }
     double samplesIn(double seconds) const { return perSecond_ * seconds; }
     // Of each pixel; 1 to `most`.
     std::uint32_t sppIn(double seconds, const RenderSettings& size, double maximum) const;
 
   private:
     double perSecond_ = 2e5; // a cautious guess at first
+    bool isLearnt_ = false;
 };
 
 // With the size in pixels.

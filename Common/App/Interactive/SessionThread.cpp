@@ -21,7 +21,11 @@ SessionThread::SessionThread(const SessionSetup& setup, Mailbox& mailbox, Publis
       request_(setup.request),
       film_(setup, mailbox, state),
       previewIsWanted_(setup.preview),
-      atEnd_(setup.atEnd) {}
+      atEnd_(setup.atEnd) {
+    ViewRequest view;
+    view.denoise = setup.request.halves; // until the window says what it shows
+    film_.publisher.setView(view);
+}
 
 EndFiles SessionThread::run() {
     lowerThreadPriority();
