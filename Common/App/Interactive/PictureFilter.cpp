@@ -51,10 +51,9 @@ PictureFilter::Pointer PictureFilter::update(const FilmRun& film, Haste haste, b
     hasMadeFinal_ = false;
     const std::uint64_t samples = film.status().samplesDone;
     if (!denoiser_ || film.settings().replicates < kHalves || samples == 0 || refusedSamples_ == samples) return last_;
-    const bool isQuick = isQuick_ && static_cast<double>(film.pixels()) * liveSecondsPerPixel_ <= kMaxLiveSeconds;
     if (isFinalDue(film, haste, wantsDetails))
         make(film, DenoiseQuality::Final, wantsDetails, cancel_);
-    else if (isQuick && !isFinal() && samples != samples_)
+    else if (isLiveQuick(film) && !isFinal() && samples != samples_)
         make(film, DenoiseQuality::Live, false, cancel_);
     return last_;
 }
@@ -65,11 +64,16 @@ bool PictureFilter::canImprove(const FilmRun& film, bool wantsDetails) const {
     return !isFinal() || samples != samples_ || (wantsDetails && !hasDetails_);
 }
 
-// A film that converges is filtered again when that is worth it, and keeps its last final picture in between: live ones
-// would be worse.
+bool PictureFilter::isLiveQuick(const FilmRun& film) const {
+    return isQuick_ && static_cast<double>(film.pixels()) * liveSecondsPerPixel_ <= kMaxLiveSeconds;
+}
+
+// A live picture comes first. A film that converges is filtered again when that is worth it, and keeps its last final
+// picture in between: live ones would be worse.
 bool PictureFilter::isFinalDue(const FilmRun& film, Haste haste, bool wantsDetails) const {
     if (haste == Haste::AtOnce || !canImprove(film, wantsDetails)) return false;
     if (haste == Haste::AtRest || !isQuick_) return haste == Haste::AtRest;
+    if (!last_ && isLiveQuick(film)) return false;
     if (!isFinal() || (wantsDetails && !hasDetails_)) return sinceBegin_.seconds() >= kFinalAfter;
     return static_cast<double>(film.status().samplesDone) >= kFinalGrowth * static_cast<double>(samples_) &&
            sinceFinal_.seconds() >= last_->seconds / kFinalShare;

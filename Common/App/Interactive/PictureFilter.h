@@ -46,6 +46,7 @@ class PictureFilter {
 
   private:
     bool isFinal() const { return last_ && last_->quality == DenoiseQuality::Final; }
+    bool isLiveQuick(const FilmRun& film) const;
     bool isFinalDue(const FilmRun& film, Haste haste, bool wantsDetails) const;
     void make(const FilmRun& film, DenoiseQuality quality, bool wantsDetails, const std::atomic<bool>& cancel);
 
