@@ -30,14 +30,14 @@ struct DenoisedPicture {
 };
 
 // Of one film: made by Engine::makeDenoiser() after reset(), and of no use after the next one. What takes long to make,
-// as pipelines of a device, belongs to the engine. Used by the thread that drives the engine, between its calls, so that
-// its time is none of sampling.
+// as pipelines of a device, belongs to the engine. Used by the thread that drives the engine, between its calls, so
+// that its time is none of sampling.
 class PictureDenoiser {
   public:
     virtual ~PictureDenoiser() = default;
 
-    // Whether live pictures are worth their time. They are not where the film has to be copied first: then pictures wait
-    // until the film rests.
+    // Whether live pictures are worth their time. They are not where the film has to be copied first: then pictures
+    // wait until the film rests.
     virtual bool isQuick() const { return true; }
 
     // The film as it is, which stays as it is. None where `cancel` became true, and where the film has no two halves of

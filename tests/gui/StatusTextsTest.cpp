@@ -84,10 +84,10 @@ TEST(ChipTexts, SayWhatThePictureIs) {
     state.picture.isDenoised = state.picture.isLive = true;
     EXPECT_EQ(chipTexts(state, true, true)[3], "denoised, live");
     state.picture.isLive = false;
+    EXPECT_EQ(chipTexts(state, true, true)[3], "denoised");
     state.denoisedRelmse = 0.002;
-    EXPECT_EQ(chipTexts(state, true, true),
-              (Texts{"GPU multi", "16 spp", "8.00 s", "denoised", "raw relMSE 5.00e-02, measured",
-                     "denoised relMSE 2.00e-03, measured"}));
+    EXPECT_EQ(chipTexts(state, true, true), (Texts{"GPU multi", "16 spp", "8.00 s", "raw relMSE 5.00e-02, measured",
+                                                   "denoised relMSE 2.00e-03, measured"}));
     state.picture.isPreview = true;
     EXPECT_EQ(chipTexts(state, true, true), Texts{"GPU preview"});
 }

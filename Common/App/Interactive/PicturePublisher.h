@@ -35,8 +35,8 @@ class PicturePublisher {
 
     // The film so far, where it has no samples yet as the draft; without any, what was shown before stays.
     void show(const FilmRun& film, FilmReference& reference, const RenderSpeed& speed, Haste haste);
-    // Of the denoiser: it could make a better picture of the film as it is; seconds that it takes for a pixel of a draft,
-    // if it is on; the engine has begun the film anew; it begins something else; it goes, or gets another scene.
+    // Of the denoiser: it could make a better picture of the film as it is; seconds that it takes for a pixel of a
+    // draft, if it is on; the engine has begun the film anew; it begins something else; it goes, or gets another scene.
     bool isFiltering(const FilmRun& film) const { return isFiltered() && filter_.canImprove(film, wantsDetails()); }
     std::optional<double> denoiseSecondsPerPixel() const {
         return isFiltered() ? filter_.liveSecondsPerPixel() : std::nullopt;

@@ -89,7 +89,10 @@ std::vector<std::string> chipTexts(const app::SessionState& state, bool isGpu, b
     const std::string wanted = isBarShown ? "" : " / " + std::to_string(state.settings.spp);
     texts.push_back(state.picture.spp > 0 ? std::to_string(state.picture.spp) + wanted + " spp" : "draft");
     if (state.renderSeconds > 0) texts.push_back(shortDuration(state.renderSeconds));
-    if (state.picture.isDenoised) texts.push_back(state.picture.isLive ? "denoised, live" : "denoised");
+    if (state.picture.isLive)
+        texts.push_back("denoised, live");
+    else if (state.picture.isDenoised && !state.denoisedRelmse)
+        texts.push_back("denoised");
     const std::string how = state.curve.empty() ? ", estimated" : ", measured";
     if (state.relmse)
         texts.push_back((state.denoisedRelmse ? "raw relMSE " : "relMSE ") + errorText(*state.relmse) + how);

@@ -17,8 +17,9 @@ struct ProgressTexts {
 // budget of the render in seconds; 0: none.
 ProgressTexts progressOf(const app::SessionState& state, double timeLimit);
 
-// What the picture is: its engine, samples, time, whether it is denoised, and the errors of the raw and the denoised one. It may have fewer samples than the render has by now: how
-// far that is tells the bar, or the chip where no bar is shown.
+// What the picture is: its engine, samples, time, whether it is denoised, and the errors of the raw and the denoised
+// one. It may have fewer samples than the render has by now: how far that is tells the bar, or the chip where no bar is
+// shown.
 std::vector<std::string> chipTexts(const app::SessionState& state, bool isGpu, bool isBarShown);
 
 // From what matters most to what matters least: title, size, samples per second, engine, device.

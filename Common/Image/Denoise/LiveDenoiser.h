@@ -13,8 +13,8 @@ namespace rt::image {
 // Keeps its memory from one picture to the next.
 class LiveDenoiser {
   public:
-    // The mean of both filtered halves. The same bits for any number of threads (0: as many as the machine has). Whoever
-    // may call this thread's work off (Interruption.h) interrupts it.
+    // The mean of both filtered halves. The same bits for any number of threads (0: as many as the machine has).
+    // Whoever may call this thread's work off (Interruption.h) interrupts it.
     Image filter(const DenoiseInput& input, std::size_t threads = 0);
 
   private:

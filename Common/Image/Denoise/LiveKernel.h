@@ -11,8 +11,8 @@ inline constexpr int kLiveFeatures = 7; // albedo, normal, depth
 inline constexpr int kLiveMargin = shared::kLiveReach << (shared::kLiveLevels - 1);
 inline constexpr float kLiveOutside = 1.0e6f;
 
-// What is filtered by the weights of one half: the other half's radiance, so that noise does not choose its own weights,
-// and this half's tones, of which the next level makes weights. Pointers are to the first pixel of the row.
+// What is filtered by the weights of one half: the other half's radiance, so that noise does not choose its own
+// weights, and this half's tones, of which the next level makes weights. Pointers are to the first pixel of the row.
 struct LiveHalf {
     const float *radiance[3] = {}, *tones[3] = {}, *variance = nullptr; // as the level before has left it
     float *newRadiance[3] = {}, *newTones[3] = {}, *newVariance = nullptr;

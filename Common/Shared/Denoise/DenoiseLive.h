@@ -1,9 +1,9 @@
-// The filter for a picture that moves or has just begun: a-trous wavelets that stop at edges after Dammertz et al. 2010,
-// "Edge-Avoiding A-Trous Wavelet Transform for fast Global Illumination Filtering". Level by level each half becomes a
-// weighted mean of 3x3 pixels twice as far apart as before. The weights are those of DenoiseWeights.h without patches,
-// from the tones of the other half. These are filtered along with it, by the same weights, and so is their variance, as
-// in Schied et al. 2017, "Spatiotemporal Variance-Guided Filtering": no noise ever chooses its own weights. Features of
-// surfaces stop it where samples are too few to tell.
+// The filter for a picture that moves or has just begun: a-trous wavelets that stop at edges after Dammertz et al.
+// 2010, "Edge-Avoiding A-Trous Wavelet Transform for fast Global Illumination Filtering". Level by level each half
+// becomes a weighted mean of 3x3 pixels twice as far apart as before. The weights are those of DenoiseWeights.h without
+// patches, from the tones of the other half. These are filtered along with it, by the same weights, and so is their
+// variance, as in Schied et al. 2017, "Spatiotemporal Variance-Guided Filtering": no noise ever chooses its own
+// weights. Features of surfaces stop it where samples are too few to tell.
 #ifndef RT_SHARED_DENOISE_LIVE_H
 #define RT_SHARED_DENOISE_LIVE_H
 #include "Common/Shared/Denoise/DenoiseWeights.h"
