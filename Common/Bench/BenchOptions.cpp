@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <iterator>
-#include <sstream>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
 #include "Common/App/Options/OptionValues.h"
 #include "Common/Bench/Config.h"
+#include "Common/Bench/Suite.h"
+#include "Common/Core/BuildInfo.h"
 #include "Common/Core/Error.h"
+#include "Common/Manual/Help.h"
 
 namespace rt::bench {
 namespace {
@@ -24,62 +27,109 @@ void checkEngines(const std::vector<std::string>& engines) {
             app::refuseValue("--engine", engine, app::alternatives({std::begin(kEngines), std::end(kEngines)}));
 }
 
-} // namespace
+constexpr const char* kName = "ray-tracing-bench";
+constexpr const char* kDescription =
+    "Measures run time against error: engines, estimators, samplers. Exit code 5: --compare found a regression.";
 
-std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& arguments, std::ostream& out) {
-    constexpr const char* kName = "ray-tracing-bench";
-    CLI::App app{
-        "Measures run time against error: engines, estimators, samplers. Exit code 5: --compare found a regression.",
-        kName};
-    app.set_version_flag("--version", std::string(kName) + " " RT_VERSION);
+struct BenchFlags {
     BenchOptions options;
     bool quick = false;
-    auto* const suite = app.add_option(
-        "SUITE", options.suite,
-        "quick (the default), predecessor, defaults, lights, samplers, scaling, peers, full, or a .json file");
-    auto* const quickFlag = app.add_flag("--quick", quick, "the suite quick");
+};
+
+void addSuiteFlags(CLI::App& app, BenchFlags& flags) {
+    BenchOptions& options = flags.options;
+    std::string suites;
+    for (const NamedSuite& suite : namedSuites()) suites += std::string(suite.name) + "|";
+    app.add_option("SUITE", options.suite,
+                   "quick (the default) or another that comes with the program, or a .json file")
+        ->type_name(suites + "FILE");
+    app.add_flag("--quick", flags.quick, "the suite quick");
     app.add_flag("--list-suites", options.listSuites, "names and titles of the suites that come with the program");
     app.add_option("--scene", options.scenes, "render these scenes instead of the suite's")
-        ->type_name("S")
+        ->type_name("SCENE")
         ->allow_extra_args(false);
-    app.add_option("--engine", options.engines,
-                   "of the suite's engines only these: single, multi, pipeline, compute, query")
-        ->type_name("E")
+    std::string engines;
+    for (const std::string_view engine : kEngines) engines += (engines.empty() ? "" : "|") + std::string(engine);
+    app.add_option("--engine", options.engines, "of the suite's engines only these")
+        ->type_name(engines)
         ->allow_extra_args(false);
-    auto* const report = app.add_option("--report", options.report,
-                                        "folder for report.html, report.md, results.json, results.csv and plots")
-                             ->type_name("DIR");
+    app.add_option("--report", options.report, "folder for report.html, report.md, results.json, results.csv and plots")
+        ->type_name("DIR");
     app.add_option("--device", options.device, "Vulkan device by index or part of its name")->type_name("N|TEXT");
     app.add_flag("--fresh-references", options.freshReferences, "do not read references from the cache");
     app.add_flag("-q,--quiet", options.quiet, "no progress");
-    auto* const compare =
+}
+
+// What is done instead of a suite.
+void addOtherModes(CLI::App& app, BenchOptions& options) {
+    std::vector<CLI::Option*> others = {app.get_option("SUITE"), app.get_option("--quick"), app.get_option("--report")};
+    const auto exclude = [&others](CLI::Option* option) {
+        for (CLI::Option* other : others) option->excludes(other);
+        others.push_back(option);
+    };
+    CLI::Option* const compare =
         app.add_option("--compare", options.compare,
                        "compare two reports: folders or results.json; exits with 5 when B is worse than A beyond noise")
             ->type_name("A B")
-            ->expected(2)
-            ->excludes(suite, quickFlag, report);
+            ->expected(2);
     compare->multi_option_policy(CLI::MultiOptionPolicy::Throw);
-    auto* const stability =
-        app.add_flag(
-               "--stability", options.stability,
-               "instead of a suite: scenes whose answer is known, pushed to the limits of single precision; exits with "
-               "5 when an engine misses one")
-            ->excludes(suite, quickFlag, report, compare);
-    app.add_flag("--parts", options.parts,
-                 "instead of a suite: what parts of the work cost, each left out in turn, and what the driver tells of "
-                 "the shaders; of Cornell Box Lights on GPU engines unless --scene and --engine say otherwise")
-        ->excludes(suite, quickFlag, report, compare, stability);
+    exclude(compare);
+    exclude(app.add_flag(
+        "--stability", options.stability,
+        "instead of a suite: scenes whose answer is known, pushed to the limits of single precision; exits with "
+        "5 when an engine misses one"));
+    exclude(app.add_flag(
+        "--parts", options.parts,
+        "instead of a suite: what parts of the work cost, each left out in turn, and what the driver tells of "
+        "the shaders; of Cornell Box Lights on GPU engines unless --scene and --engine say otherwise"));
+}
+
+void addFlags(CLI::App& app, BenchFlags& flags) {
+    app.set_help_flag("--help,-h", "print the flags that matter most and exit");
+    app.set_help_all_flag("--help-all", "print every flag and exit");
+    app.set_version_flag("--version", versionText(kName), "print version, commit, features and compilers and exit");
+    addSuiteFlags(app, flags);
+    addOtherModes(app, flags.options);
+}
+
+manual::Page pageOfFlags(const CLI::App& app) {
+    manual::Page page = manual::pageOf(app);
+    page.essentials = {"--list-suites", "--scene", "--engine", "--report", "--device", "--compare"};
+    page.environment = {{"XDG_CACHE_HOME", "ray-tracing/references in it holds references that were rendered"}};
+    page.examples = {{"ray-tracing-bench --report report", "Measure the suite quick and write a report of it."},
+                     {"ray-tracing-bench --compare before after", "Tell whether the second report is worse."}};
+    return page;
+}
+
+} // namespace
+
+manual::Page benchPage() {
+    CLI::App app{kDescription, kName};
+    BenchFlags flags;
+    addFlags(app, flags);
+    return pageOfFlags(app);
+}
+
+std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& arguments, std::ostream& out) {
+    CLI::App app{kDescription, kName};
+    BenchFlags flags;
+    addFlags(app, flags);
     try {
-        std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
-        app.parse(reversed);
-    } catch (const CLI::Success& request) { // --help or --version
-        std::ostringstream errors;
-        app.exit(request, out, errors);
+        app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend())); // the order that CLI11 takes
+    } catch (const CLI::CallForHelp&) {
+        out << manual::helpText(pageOfFlags(app));
+        return std::nullopt;
+    } catch (const CLI::CallForAllHelp&) {
+        out << manual::fullHelpText(pageOfFlags(app));
+        return std::nullopt;
+    } catch (const CLI::CallForVersion& version) {
+        out << version.what() << '\n';
         return std::nullopt;
     } catch (const CLI::ParseError& error) {
         throw UsageError(oneLine(error.what()));
     }
-    if (quick && suite->count() > 0 && options.suite != "quick")
+    BenchOptions& options = flags.options;
+    if (flags.quick && app.count("SUITE") > 0 && options.suite != "quick")
         throw UsageError("--quick: " + options.suite + " is another suite");
     checkEngines(options.engines);
     return options;

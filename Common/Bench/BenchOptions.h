@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "Common/Manual/Page.h"
+
 namespace rt::bench {
 
 struct BenchOptions {
@@ -21,7 +23,9 @@ struct BenchOptions {
     bool parts = false;     // what parts of the work cost instead of a suite
 };
 
-// Nothing after --help and --version, which are answered on `out`. Throws UsageError.
+// Nothing after --help, --help-all and --version, which are answered on `out`. Throws UsageError.
 std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& arguments, std::ostream& out);
+
+manual::Page benchPage();
 
 } // namespace rt::bench

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/Printable.h"
@@ -20,48 +18,21 @@
 #include "Common/Image/MergeCheckpoints.h"
 #include "Common/Image/Metrics.h"
 #include "Common/Render/Names.h"
+#include "Common/Tools/Image/ImageArguments.h"
 
 namespace {
 
 using namespace rt;
+using tools::kMetrics;
+using tools::Metric;
+using Arguments = tools::ImageArguments;
 
-constexpr const char* kProgram = "ray-tracing-image";
 constexpr std::size_t kMaxDescription = 16384; // bytes of it that are printed
 
-struct Metric {
-    const char* name;
-    double image::ErrorFigures::*value;
-    bool moreIsBetter;
-};
-
-constexpr Metric kMetrics[] = {{"mse", &image::ErrorFigures::mse, false},
-                               {"rmse", &image::ErrorFigures::rmse, false},
-                               {"relmse", &image::ErrorFigures::relmse, false},
-                               {"mae", &image::ErrorFigures::mae, false},
-                               {"psnr", &image::ErrorFigures::psnr, true}};
-
-struct Arguments {
-    std::string a, b;
-    std::string metric;
-    std::optional<double> max;
-    std::string output;
-    std::string layer;
-    std::vector<std::string> parts;
-    float exposure = 0;
-    std::string tonemap = "none";
-};
-
-// The table's row of that name; CLI11 has checked that there is one.
+// The table's row of that name, of which there is one.
 template <class Row, std::size_t N>
 const Row& rowOf(const Row (&table)[N], const std::string& name) {
     return *std::find_if(std::begin(table), std::end(table), [&](const Row& row) { return row.name == name; });
-}
-
-template <class Row, std::size_t N>
-std::vector<std::string> namesOf(const Row (&table)[N]) {
-    std::vector<std::string> names;
-    for (const Row& row : table) names.emplace_back(row.name);
-    return names;
 }
 
 // Prints the metric asked for, or all of them; with --max the exit code tells whether it (mse by default) is exceeded.
@@ -145,60 +116,19 @@ int denoise(const Arguments& arguments) {
     return static_cast<int>(ExitCode::Done);
 }
 
-// Runs the command that the command line asks for.
-int run(int argc, char** argv) {
-    CLI::App app{"Compares, describes and converts images: .png .exr .hdr .pfm, and to read .jpg .bmp .tga .tif .webp.",
-                 kProgram};
-    app.set_version_flag("--version", std::string(kProgram) + " " RT_VERSION);
-    app.require_subcommand(0, 1); // an unknown one is named in its error, a missing one below
-    Arguments arguments;
-
-    CLI::App* const diffs = app.add_subcommand("diff", "Print how far image A is from B; both in linear radiance");
-    diffs->add_option("A", arguments.a)->required();
-    diffs->add_option("B", arguments.b, "Reference")->required();
-    diffs->add_option("--metric", arguments.metric, "Print this one only")->check(CLI::IsMember(namesOf(kMetrics)));
-    diffs->add_option("--max", arguments.max, "Exit with 5 when the metric (default mse) is worse than this");
-    diffs->add_option("--output", arguments.output, "Write a heat map of the differences");
-
-    CLI::App* const infos = app.add_subcommand(
-        "info", "Print size, channels, range and mean of an image, and how it was rendered where the file tells");
-    infos->add_option("F", arguments.a)->required();
-    infos->add_option("--layer", arguments.layer, "Of an .exr: this layer, part or channel");
-
-    CLI::App* const converts = app.add_subcommand("convert", "Write image A in the format of B's extension");
-    converts->add_option("A", arguments.a)->required();
-    converts->add_option("B", arguments.b)->required();
-    converts->add_option("--layer", arguments.layer, "Of an .exr: this layer, part or channel, as info lists them");
-    converts->add_option("--exposure", arguments.exposure, "Stops");
-    converts->add_option("--tonemap", arguments.tonemap, "Tone curve")->check(CLI::IsMember(namesOf(app::kTonemaps)));
-
-    CLI::App* const merges = app.add_subcommand("merge", "Join the checkpoints of --tiles or --region to one image");
-    merges->add_option("PARTS", arguments.parts, "Checkpoints of all parts, in any order")->required();
-    merges->add_option("--output,-o", arguments.output, "Image, or checkpoint .rtc")->required();
-
-    CLI::App* const denoises = app.add_subcommand(
-        "denoise", "Filter the film of a checkpoint with two replicates or more, and print the relMSE estimated");
-    denoises->add_option("FILM", arguments.a, "Checkpoint .rtc")->required();
-    denoises->add_option("--output,-o", arguments.output, "Image")->required();
-
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& request) { // --help or --version
-        return app.exit(request);
-    } catch (const CLI::ParseError& error) {
-        throw UsageError(error.what());
-    }
-    setUpLog({kProgram, false, false, ""}); // of what is left out of images
-    if (app.get_subcommands().empty())
-        throw UsageError("a subcommand is required: diff, info, convert, denoise or merge");
-    if (diffs->parsed()) return diff(arguments);
-    if (denoises->parsed()) return denoise(arguments);
-    if (merges->parsed()) return merge(arguments);
-    return infos->parsed() ? info(arguments) : convert(arguments);
+int run(const std::vector<std::string>& line) {
+    const std::optional<Arguments> arguments = tools::parseImageArguments(line, std::cout);
+    if (!arguments) return static_cast<int>(ExitCode::Done); // --help, --version
+    setUpLog({tools::kImageTool, false, false, ""});         // of what is left out of images
+    if (arguments->command == "diff") return diff(*arguments);
+    if (arguments->command == "denoise") return denoise(*arguments);
+    if (arguments->command == "merge") return merge(*arguments);
+    return arguments->command == "info" ? info(*arguments) : convert(*arguments);
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-    return rt::runMain(kProgram, [&] { return run(argc, argv); });
+    const std::vector<std::string> line(argv + std::min(argc, 1), argv + argc);
+    return rt::runMain(rt::tools::kImageTool, [&] { return run(line); });
 }

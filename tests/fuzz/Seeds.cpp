@@ -215,7 +215,7 @@ void writeTexts(const Seeds& seeds) {
     std::set<std::string> flags;
     for (const std::string program : {rt::app::kCpuProgram, rt::app::kGpuProgram}) {
         std::stringstream help;
-        rt::app::parseOptions(program, {"--help"}, help);
+        rt::app::parseOptions(program, {"--help-all"}, help);
         for (std::string word; help >> word;)
             if (word.starts_with("--")) flags.insert(word.substr(0, word.find_first_of(",;:")));
     }

@@ -42,7 +42,7 @@ std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const 
         if (leftOut_.count("--" + entry.name) > 0) continue;
         const CLI::Option* option = findOption(app_, (entry.name.size() == 1 ? "-" : "--") + entry.name);
         const std::string named = entry.place + ": \"" + excerpt(entry.name) + "\" ";
-        if (option == nullptr) throw UsageError(named + "is no flag; --help lists them all");
+        if (option == nullptr) throw UsageError(named + "is no flag; --help-all lists them all");
         if (!option->get_configurable()) throw UsageError(named + "can be given on the command line only");
         CLI::ConfigItem item;
         item.name = entry.name;

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 #include "Common/App/Options/ConfigFile.h"
+#include "Common/Core/BuildInfo.h"
 #include "Common/Core/Error.h"
+#include "Common/Manual/Help.h"
 
 namespace rt::app {
 namespace {
@@ -29,13 +32,14 @@ FlagSet::FlagSet(const std::string& program, const std::string& description)
     app_.allow_config_extras(CLI::config_extras_mode::error);
     app_.config_formatter(config_);
     app_.set_config("--config", userConfigFile(), "defaults of flags, as TOML, INI or JSON")
-        ->type_name("F")
+        ->type_name("F.toml|.json|.ini")
         ->configurable(false);
     addSwitch("--no-config", noConfig_,
               "ignore the user's configuration file; a window keeps no settings, layout, history and references")
         ->configurable(false);
-    app_.set_help_flag("--help,-h", "print this and exit");
-    app_.set_version_flag("--version", program + " " RT_VERSION, "print the version and exit");
+    app_.set_help_flag("--help,-h", "print the flags that matter most and exit");
+    app_.set_help_all_flag("--help-all", "print every flag and exit");
+    app_.set_version_flag("--version", versionText(program), "print version, commit, features and compilers and exit");
 }
 
 CLI::Option* FlagSet::add(const std::string& flags, const std::string& type, const std::string& help, Reader read) {
@@ -55,14 +59,16 @@ CLI::Option* FlagSet::addSwitch(const std::string& flags, bool& target, const st
     return app_.add_flag(flags, target, help);
 }
 
-CLI::Option* FlagSet::addFile(const std::string& flags, std::string& target, const std::string& help) {
-    return add(flags, "F", help, [&target](const std::string& flag, const std::string& text) {
+CLI::Option* FlagSet::addFile(const std::string& flags, const std::string& type, std::string& target,
+                              const std::string& help) {
+    return add(flags, type, help, [&target](const std::string& flag, const std::string& text) {
         if (text.empty()) refuseValue(flag, text, "the name of a file");
         target = text;
     });
 }
 
-CLI::Option* FlagSet::addFiles(const std::string& flags, std::vector<std::string>& target, const std::string& help) {
+CLI::Option* FlagSet::addFiles(const std::string& flags, const std::string& type, std::vector<std::string>& target,
+                               const std::string& help) {
     const std::string flag = firstSpelling(flags);
     const auto callback = [this, &target, flag](const std::vector<std::string>& files) {
         for (const std::string& file : files)
@@ -70,7 +76,7 @@ CLI::Option* FlagSet::addFiles(const std::string& flags, std::vector<std::string
         target = files;
     };
     return app_.add_option_function<std::vector<std::string>>(flags, callback, help)
-        ->type_name("F")
+        ->type_name(type)
         ->take_all()
         ->allow_extra_args(false);
 }
@@ -106,6 +112,21 @@ void FlagSet::applyEnvironment() {
     }
 }
 
+void FlagSet::describe(std::vector<std::string> essentials, std::vector<manual::Term> examples,
+                       std::vector<manual::Term> environment) {
+    description_.essentials = std::move(essentials);
+    description_.examples = std::move(examples);
+    description_.environment = std::move(environment);
+}
+
+manual::Page FlagSet::page() const {
+    manual::Page page = manual::pageOf(app_);
+    page.essentials = description_.essentials;
+    page.examples = description_.examples;
+    page.environment = description_.environment;
+    return page;
+}
+
 bool FlagSet::given(const std::string& flag) const {
     const CLI::Option* option = findOption(app_, flag);
     return option != nullptr && option->count() > 0;
@@ -124,7 +145,10 @@ bool FlagSet::parse(std::vector<std::string> arguments, std::ostream& out) {
     try {
         app_.parse(std::move(arguments));
     } catch (const CLI::CallForHelp&) {
-        out << app_.help();
+        out << manual::helpText(page());
+        return false;
+    } catch (const CLI::CallForAllHelp&) {
+        out << manual::fullHelpText(page());
         return false;
     } catch (const CLI::CallForVersion& version) {
         out << version.what() << '\n';
@@ -135,7 +159,7 @@ bool FlagSet::parse(std::vector<std::string> arguments, std::ostream& out) {
         throw UsageError(oneLine(error.what()));
     }
     if (const auto unknown = app_.remaining(); !unknown.empty())
-        throw UsageError(unknown.front() + ": unknown flag; --help lists them all");
+        throw UsageError(unknown.front() + ": unknown flag; --help-all lists them all");
     applyEnvironment();
     return true;
 }

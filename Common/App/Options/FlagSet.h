@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "Common/App/Options/OptionValues.h"
+#include "Common/Manual/Page.h"
 
 namespace rt::app {
 
@@ -32,8 +33,11 @@ class FlagSet {
 
     CLI::Option* add(const std::string& flags, const std::string& type, const std::string& help, Reader read);
     CLI::Option* addSwitch(const std::string& flags, bool& target, const std::string& help);
-    CLI::Option* addFile(const std::string& flags, std::string& target, const std::string& help);
-    CLI::Option* addFiles(const std::string& flags, std::vector<std::string>& target, const std::string& help);
+    // `type`: a form of Common/Manual/Values.h, such as "F.png|.exr".
+    CLI::Option* addFile(const std::string& flags, const std::string& type, std::string& target,
+                         const std::string& help);
+    CLI::Option* addFiles(const std::string& flags, const std::string& type, std::vector<std::string>& target,
+                          const std::string& help);
     CLI::Option* addSeconds(const std::string& flags, std::optional<double>& target, const std::string& help);
 
     // T is std::uint32_t or an optional of it.
@@ -47,14 +51,16 @@ class FlagSet {
 
     template <class E, std::size_t N>
     CLI::Option* addChoice(const std::string& flags, const Named<E> (&table)[N], E& target, const std::string& help) {
-        std::string type, text = help;
+        std::string type, text = help, byDefault;
         for (const auto& row : table) {
             type += (type.empty() ? "" : "|") + std::string(row.name);
             if (row.help) text += "\n  " + std::string(row.name) + ": " + row.help;
+            if (row.value == target) byDefault = row.name;
         }
-        return add(flags, type, text, [&target, &table](const std::string& flag, const std::string& text) {
+        const auto read = [&target, &table](const std::string& flag, const std::string& text) {
             target = parseChoice(flag, text, table);
-        });
+        };
+        return add(flags, type, text, read)->default_str(byDefault);
     }
 
     // A flag that exists elsewhere; using it is an error that says so.
@@ -62,7 +68,12 @@ class FlagSet {
     // The variable stands for the flag where the command line lacks it.
     void readEnvironment(const std::string& flag, const std::string& variable);
 
-    // Returns false when --help or --version was asked for and has been answered on `out`.
+    // What --help and the manual say beside the flags themselves.
+    void describe(std::vector<std::string> essentials, std::vector<manual::Term> examples,
+                  std::vector<manual::Term> environment);
+    manual::Page page() const;
+
+    // Returns false when --help, --help-all or --version was asked for and has been answered on `out`.
     bool parse(std::vector<std::string> arguments, std::ostream& out);
     bool given(const std::string& flag) const;
     bool isFromFile(const std::string& flag) const; // and not from the command line
@@ -75,6 +86,7 @@ class FlagSet {
     };
     CLI::App app_;
     std::shared_ptr<ConfigFile> config_;
+    manual::Page description_; // without what the parser knows
     std::vector<Variable> variables_;
     std::vector<std::pair<std::string, Reader>> readers_; // by first spelling
     bool noConfig_ = false;

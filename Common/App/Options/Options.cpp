@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "Common/App/Options/Description.h"
 #include "Common/App/Options/FlagSet.h"
 #include "Common/App/Session/FeatureNames.h"
 #include "Common/App/Session/SceneSource.h"
@@ -47,7 +48,7 @@ void addScene(FlagSet& flags, ParsedFlags& parsed) {
     Options& options = parsed.options;
     flags.group("Scene");
     flags
-        .add("--scene", "S", "id of --list-scenes, a .json scene, an .obj, .gltf or .glb file",
+        .add("--scene", "SCENE", "id of --list-scenes, a .json scene, an .obj, .gltf or .glb file",
              [&options](const std::string& flag, const std::string& text) {
                  if (text.empty())
                      refuseValue(flag, text, "an id of --list-scenes, a .json scene, an .obj, .gltf or .glb file");
@@ -62,10 +63,10 @@ void addScene(FlagSet& flags, ParsedFlags& parsed) {
                   if (isPose(text)) (void)poseOf(text, {}); // the scene may say the rest
                   options.camera = text;
               });
-    flags.addFile("--assets-below", options.assetsBelow, "DIR: no file of the scene may lie elsewhere");
+    flags.addFile("--assets-below", "DIR", options.assetsBelow, "no file of the scene may lie elsewhere");
     flags.addSwitch("--list-scenes", parsed.listScenes, "print ids and titles and exit")->configurable(false);
     flags.addSwitch("--json", options.json, "with --list-scenes: as JSON")->configurable(false);
-    flags.addFile("--export-scene", options.exportFile, "write the scene as a scene file and exit")
+    flags.addFile("--export-scene", "F.json", options.exportFile, "write the scene as a scene file and exit")
         ->configurable(false);
     flags.addChoice("--one-sided-lights", kOnOff, options.oneSidedLights, "lights emit from their front face only");
 }
@@ -144,7 +145,8 @@ void addDenoise(FlagSet& flags, ParsedFlags& parsed) {
 void addOutput(FlagSet& flags, ParsedFlags& parsed) {
     Options& options = parsed.options;
     flags.group("Output");
-    flags.addFiles("--output,-o,--outfile", options.outputs, ".png: for display; .exr .hdr .pfm: linear; repeatable");
+    flags.addFiles("--output,-o,--outfile", "F.png|.exr|.hdr|.pfm", options.outputs,
+                   ".png: for display, .exr .hdr .pfm: linear; repeatable");
     flags
         .add("--exposure", "E", "stops, for PNG",
              [&options](const std::string& flag, const std::string& text) {
@@ -153,9 +155,11 @@ void addOutput(FlagSet& flags, ParsedFlags& parsed) {
         ->default_str("0");
     flags.addChoice("--tonemap", kTonemaps, options.tonemap,
                     "for PNG; none clamps, neutral is the curve that windows begin with, agx a filmic one");
-    flags.add("--aov", "LIST",
-              "write albedo,normal,depth,wide-albedo,wide-normal,wide-depth,emission,variance,samples,denoised,"
-              "denoised-error as well, as NAME.albedo.EXT; wide: of what is seen through mirrors and clear glass",
+    std::string aovs;
+    for (const auto& row : kAovs) aovs += (aovs.empty() ? "" : ",") + std::string(row.name);
+    flags.add("--aov", aovs,
+              "write these images as well, as NAME.albedo.EXT; wide: of what is seen through "
+              "mirrors and clear glass",
               [&options](const std::string& flag, const std::string& text) {
                   options.aovs = {};
                   for (const std::string& name : parseList(flag, text)) {
@@ -164,8 +168,9 @@ void addOutput(FlagSet& flags, ParsedFlags& parsed) {
                   }
               });
     addDenoise(flags, parsed);
-    flags.addFile("--reference", options.reference, "linear image; its error figures go to the statistics");
-    flags.addFile("--stats", options.stats, "statistics as JSON; -: standard output");
+    flags.addFile("--reference", "F.exr|.hdr|.pfm|.png", options.reference,
+                  "linear image; its error figures go to the statistics");
+    flags.addFile("--stats", "F.json", options.stats, "statistics as JSON; -: standard output");
 }
 
 void addDuration(FlagSet& flags, Options& options) {
@@ -180,8 +185,9 @@ void addDuration(FlagSet& flags, Options& options) {
                       parseReal(flag, text, 1e-30, 1e30, "a relative squared error from 1e-30 to 1e30");
               });
     flags.addSeconds("--save-every", options.saveEvery, "write a checkpoint every so often");
-    flags.addFile("--checkpoint", options.checkpoint, "its file, also written at the end; OUTPUT.rtc");
-    flags.addFile("--resume", options.resume, "go on from a checkpoint as if never stopped")->configurable(false);
+    flags.addFile("--checkpoint", "F.rtc", options.checkpoint, "its file, also written at the end; OUTPUT.rtc");
+    flags.addFile("--resume", "F.rtc", options.resume, "go on from a checkpoint as if never stopped")
+        ->configurable(false);
 }
 
 void addProcessor(FlagSet& flags, ParsedFlags& parsed) {
@@ -227,7 +233,7 @@ void addProgram(FlagSet& flags, ParsedFlags& parsed) {
     flags.addSeconds("--progress-every", parsed.options.progressEvery,
                      "between two lines of progress where standard error is no terminal; 10");
     flags.addSwitch("--verbose,-v", parsed.options.verbose, "log more; RT_LOG=trace|debug|info|warn|error|off");
-    flags.addFile("--log-file", parsed.options.logFile, "write the log to a file as well");
+    flags.addFile("--log-file", "F", parsed.options.logFile, "write the log to a file as well");
 }
 
 // ---- what goes together --------------------------------------------------------------------------------------------
@@ -342,9 +348,14 @@ OptionParser::OptionParser(const std::string& program)
     addDuration(*flags_, parsed_->options);
     program == kGpuProgram ? addDevice(*flags_, *parsed_) : addProcessor(*flags_, *parsed_);
     addProgram(*flags_, *parsed_);
+    describeProgram(*flags_, program);
 }
 
 OptionParser::~OptionParser() = default;
+
+manual::Page OptionParser::page() const {
+    return flags_->page();
+}
 
 std::optional<Options> OptionParser::parse(std::vector<std::string> arguments, std::ostream& out) {
     ParsedFlags& parsed = *parsed_;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "Common/Manual/Page.h"
 #include "Common/Render/Names.h"
 #include "Common/Render/Settings.h"
 
@@ -102,8 +103,11 @@ class OptionParser {
     ~OptionParser();
 
     // Of the command line (without the program's name), else the environment, else the configuration file. Nothing is
-    // returned after --help and --version, which are answered on `out`. Throws UsageError.
+    // returned after --help, --help-all and --version, which are answered on `out`. Throws UsageError.
     std::optional<Options> parse(std::vector<std::string> arguments, std::ostream& out);
+
+    // What the help and the manual are made from.
+    manual::Page page() const;
 
   private:
     const std::string program_;

@@ -1,0 +1,148 @@
+#include "Common/Tools/Image/ImageArguments.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+#include "Common/Core/BuildInfo.h"
+#include "Common/Core/Error.h"
+#include "Common/Manual/Help.h"
+#include "Common/Render/Names.h"
+
+namespace rt::tools {
+namespace {
+
+constexpr const char* kReadable = "F.exr|.png|.hdr|.pfm|.jpg|.bmp|.tga|.tif|.webp";
+constexpr const char* kWritable = "F.png|.exr|.hdr|.pfm";
+
+template <class Row, std::size_t N>
+std::string alternativesOf(const Row (&table)[N]) {
+    std::string text;
+    for (const Row& row : table) text += (text.empty() ? "" : "|") + std::string(row.name);
+    return text;
+}
+
+// A value that must be the name of a row.
+template <class Row, std::size_t N>
+void addName(CLI::App& app, const std::string& flag, std::string& target, const Row (&table)[N],
+             const std::string& help) {
+    const auto check = [&table](const std::string& name) {
+        const auto isNamed = [&name](const Row& row) { return row.name == name; };
+        const bool found = std::any_of(std::begin(table), std::end(table), isNamed);
+        return found ? std::string() : name + ": must be among " + alternativesOf(table);
+    };
+    app.add_option(flag, target, help)->check(CLI::Validator(check, ""))->type_name(alternativesOf(table));
+}
+
+void addFile(CLI::App& app, const std::string& name, std::string& target, const char* type, const std::string& help,
+             bool required) {
+    app.add_option(name, target, help)->type_name(type)->required(required);
+}
+
+void addDiff(CLI::App& app, ImageArguments& arguments) {
+    CLI::App& diff = *app.add_subcommand("diff", "Print how far image A is from B, both in linear radiance");
+    addFile(diff, "A", arguments.a, kReadable, "the image", true);
+    addFile(diff, "B", arguments.b, kReadable, "the reference", true);
+    addName(diff, "--metric", arguments.metric, kMetrics, "print this one only");
+    diff.add_option("--max", arguments.max, "exit with 5 when the metric (mse without --metric) is worse than this")
+        ->type_name("E");
+    addFile(diff, "--output", arguments.output, kWritable, "write a heat map of the differences", false);
+}
+
+void addInfo(CLI::App& app, ImageArguments& arguments) {
+    CLI::App& info = *app.add_subcommand(
+        "info", "Print size, channels, range and mean of an image, and how it was rendered where the file tells");
+    addFile(info, "F", arguments.a, kReadable, "the image", true);
+    info.add_option("--layer", arguments.layer, "of an .exr: this layer, part or channel")->type_name("L");
+}
+
+void addConvert(CLI::App& app, ImageArguments& arguments) {
+    CLI::App& convert = *app.add_subcommand("convert", "Write image A in the format of B's extension");
+    addFile(convert, "A", arguments.a, kReadable, "the image", true);
+    addFile(convert, "B", arguments.b, kWritable, "the file to write", true);
+    convert.add_option("--layer", arguments.layer, "of an .exr: this layer, part or channel, as info lists them")
+        ->type_name("L");
+    convert.add_option("--exposure", arguments.exposure, "stops, for PNG")->type_name("E");
+    addName(convert, "--tonemap", arguments.tonemap, app::kTonemaps, "tone curve, for PNG");
+}
+
+void addMerge(CLI::App& app, ImageArguments& arguments) {
+    CLI::App& merge = *app.add_subcommand("merge", "Join the checkpoints of --tiles or --region to one image");
+    merge.add_option("PARTS", arguments.parts, "checkpoints of all parts, in any order")
+        ->type_name("F.rtc")
+        ->required();
+    addFile(merge, "--output,-o", arguments.output, "F.png|.exr|.hdr|.pfm|.rtc", "image, or checkpoint", true);
+}
+
+void addDenoise(CLI::App& app, ImageArguments& arguments) {
+    CLI::App& denoise = *app.add_subcommand(
+        "denoise", "Filter the film of a checkpoint with two replicates or more, and print the relMSE estimated");
+    addFile(denoise, "FILM", arguments.a, "F.rtc", "the checkpoint", true);
+    addFile(denoise, "--output,-o", arguments.output, kWritable, "the image to write", true);
+}
+
+void addCommands(CLI::App& app, ImageArguments& arguments) {
+    app.set_help_flag("--help,-h", "print the flags and exit");
+    addDiff(app, arguments);
+    addInfo(app, arguments);
+    addConvert(app, arguments);
+    addMerge(app, arguments);
+    addDenoise(app, arguments);
+    app.set_help_all_flag("--help-all", "print every flag of every command and exit"); // which commands do not have
+    app.set_version_flag("--version", versionText(kImageTool),
+                         "print version, commit, features and compilers and exit");
+    app.require_subcommand(0, 1); // an unknown one is named in its error, a missing one below
+}
+
+constexpr const char* kDescription =
+    "Compares, describes and converts images: .png .exr .hdr .pfm, and to read .jpg .bmp .tga .tif .webp.";
+
+manual::Page pageOfCommands(const CLI::App& app) {
+    manual::Page page = manual::pageOf(app);
+    page.examples = {{"ray-tracing-image info spheres.png", "Tell how a picture was rendered."},
+                     {"ray-tracing-image diff a.exr b.exr --metric relmse --max 0.01",
+                      "Exit with 5 where a.exr is further from b.exr than that."}};
+    return page;
+}
+
+} // namespace
+
+manual::Page imagePage() {
+    CLI::App app{kDescription, kImageTool};
+    ImageArguments arguments;
+    addCommands(app, arguments);
+    return pageOfCommands(app);
+}
+
+std::optional<ImageArguments> parseImageArguments(const std::vector<std::string>& arguments, std::ostream& out) {
+    CLI::App app{kDescription, kImageTool};
+    ImageArguments parsed;
+    addCommands(app, parsed);
+    try {
+        app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend())); // the order that CLI11 takes
+    } catch (const CLI::CallForHelp&) {
+        const auto commands = app.get_subcommands(); // at most one: what is asked about
+        const manual::Page page = pageOfCommands(app);
+        const auto isAsked = [&](const manual::Page& command) {
+            return !commands.empty() && command.name == page.name + " " + commands.front()->get_name();
+        };
+        const auto asked = std::find_if(page.commands.begin(), page.commands.end(), isAsked);
+        out << manual::helpText(asked == page.commands.end() ? page : *asked);
+        return std::nullopt;
+    } catch (const CLI::CallForAllHelp&) {
+        out << manual::fullHelpText(pageOfCommands(app));
+        return std::nullopt;
+    } catch (const CLI::CallForVersion& version) {
+        out << version.what() << '\n';
+        return std::nullopt;
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(error.what());
+    }
+    if (app.get_subcommands().empty())
+        throw UsageError("a subcommand is required: diff, info, convert, denoise or merge");
+    parsed.command = app.get_subcommands().front()->get_name();
+    return parsed;
+}
+
+} // namespace rt::tools
