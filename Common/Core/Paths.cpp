@@ -66,11 +66,11 @@ fs::path userStateFolder() {
 std::vector<fs::path> assetFolders() {
     std::vector<fs::path> candidates;
     if (const char* chosen = std::getenv("RT_ASSETS"); chosen && *chosen) candidates.emplace_back(chosen);
-    // build/bin/program -> Assets beside build; prefix/bin/program -> prefix/share/ray-tracing.
+    // build/bin/program -> Assets beside build; prefix/bin/program -> prefix/share/ray-tracing-twins.
     fs::path folder = executablePath().parent_path();
     for (int level = 0; level < 4 && folder.has_relative_path(); ++level, folder = folder.parent_path()) {
         candidates.push_back(folder / "Assets");
-        candidates.push_back(folder / "share" / "ray-tracing");
+        candidates.push_back(folder / "share" / "ray-tracing-twins");
     }
     std::vector<fs::path> found;
     std::error_code ignored;

@@ -20,8 +20,8 @@ std::filesystem::path userCacheFolder();
 // names none.
 std::filesystem::path userStateFolder();
 
-// Folders searched for assets, in order: $RT_ASSETS, the Assets folder of the source tree that the program was built
-// in, the install place. Only folders that exist.
+// Folders searched for assets, in order: $RT_ASSETS; Assets beside the program or in a folder around it, as in the
+// source tree that it was built in; share/ray-tracing-twins below the prefix that it was installed to. Only folders that exist.
 std::vector<std::filesystem::path> assetFolders();
 
 // An asset by its name relative to an asset folder, e.g. "textures/mars.jpg"; nothing when no folder has such a file.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <thread>
 #include <utility>
@@ -91,8 +92,10 @@ int follow(Communicator& ranks, const std::function<bool()>& body) {
 
 std::unique_ptr<Communicator> joinRanks() {
     if (!isStartedAsRank()) return nullptr;
-    const std::string file = (executablePath().parent_path() / RT_MPI_LIBRARY).string();
-    static const SharedLibrary library({file.c_str()}); // stays until the program ends, as MPI must
+    const std::filesystem::path folder = executablePath().parent_path();
+    const std::string file = (folder / RT_MPI_LIBRARY).string(),
+                      installed = (folder / "../lib/ray-tracing-twins" / RT_MPI_LIBRARY).string();
+    static const SharedLibrary library({file.c_str(), installed.c_str()}); // stays until the program ends, as MPI must
     const auto make = library.find<Communicator*()>("rtMakeCommunicator");
     if (make == nullptr)
         throw UsageError("mpirun has started several of these programs, but there is no " + file +
