@@ -4,21 +4,38 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 # Debian 12, Debian 13 and Ubuntu 24.04 have all of these.
-build_packages=(g++ cmake ninja-build pkg-config libglm-dev libspdlog-dev nlohmann-json3-dev libcli11-dev
-                libtinygltf-dev libstb-dev libjpeg-dev libpng-dev libopenexr-dev libtiff-dev libwebp-dev libtbb-dev
-                libvulkan-dev glslang-tools spirv-tools libglfw3-dev libimgui-dev fonts-dejavu-core)
+headless_packages=(g++ cmake ninja-build pkg-config libglm-dev libspdlog-dev nlohmann-json3-dev libcli11-dev
+                   libtinygltf-dev libstb-dev libjpeg-dev libpng-dev libopenexr-dev libtiff-dev libwebp-dev libtbb-dev
+                   libvulkan-dev glslang-tools spirv-tools)
+build_packages=("${headless_packages[@]}" libglfw3-dev libimgui-dev fonts-dejavu-core)
 test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang vulkan-validationlayers xvfb xdotool libx11-dev
-               assimp-testmodels patch)
+               assimp-testmodels patch zsh fish groff-base desktop-file-utils appstream shared-mime-info)
 bench_packages=(libbenchmark-dev libembree-dev)
 fuzz_packages=(clang libclang-rt-dev) # which holds libFuzzer and the sanitizers; clang only recommends it
 cluster_packages=(libopenmpi-dev openmpi-bin)
 release_packages=(debootstrap git)
+package_packages=(dpkg-dev file)
 
 preset=release # whatever the environment: what users build is what is tested
+log=build/build.log
 
 fail() {
     echo "build.sh: $*" >&2
     exit 1
+}
+
+# step TEXT COMMAND...: one line; what the command says goes to the log, of which a failure shows the end.
+step() {
+    local begin=$SECONDS
+    printf '%s ... ' "$1"
+    mkdir -p build
+    printf '\n==== %s\n' "${*:2}" >>$log
+    if ! "${@:2}" >>$log 2>&1; then
+        echo failed
+        tail -n 40 $log >&2
+        fail "all that was said is in $log"
+    fi
+    echo "$((SECONDS - begin)) s"
 }
 
 . cmake/SoftwareDriver.sh
@@ -29,6 +46,7 @@ usage() {
 ./build.sh               install what is needed and build Release into build/
 ./build.sh run [gpu]     the same, then open the window of ray-tracing-cpu, or of ray-tracing-gpu; without a display
                          render the default scene on CPU and GPU and compare them
+./build.sh run --minimal the same without a window: neither built nor opened
 ./build.sh test          the same, then build and run the tests of every change (label ci)
 ./build.sh test --all    those and the nightly ones (label nightly): random actions, larger samples, the second GPU engine
 ./build.sh fuzz [--fixed] [SECONDS [TARGET...]]
@@ -39,6 +57,9 @@ usage() {
 ./build.sh releases [RELEASE...]
                          as root: ./build.sh run and ./build.sh test on bare systems of each release that is promised
                          (or of some: bookworm, trixie, noble), made in build/releases; hours, for nights
+./build.sh package       packages for this system in build/packages: .deb, and .tar.gz that runs from any folder
+./build.sh package --test
+                         then, as root, try them in a bare system (tests/packages/run.sh): for nights
 ./build.sh cluster       the same as ./build.sh, and what mpirun needs to share a render out (docs/many-machines.md)
 ./build.sh bench [ARGS]  build, then run ray-tracing-bench with ARGS
 With VCPKG_ROOT set, libraries come from vcpkg; otherwise from apt (Debian 12 or newer, Ubuntu 24.04 or newer).
@@ -57,15 +78,19 @@ install_packages() {
     done
     ((${#missing[@]})) || return 0
 
-    local as_root=()
+    local as_root=() install=(apt-get install --no-install-recommends)
     if ((EUID != 0)); then
-        command -v sudo >/dev/null || fail "these packages are missing, and neither root nor sudo is at hand: ${missing[*]}"
+        command -v sudo >/dev/null || fail "packages are missing, and neither root nor sudo is at hand. Ask who administers \
+this machine for
+    ${install[*]} ${missing[*]}"
         as_root=(sudo)
     fi
-    echo "Installing ${missing[*]}"
+    echo "These packages of the system will be installed, with what they need: ${missing[*]}"
+    ((EUID == 0)) || sudo --validate # asks for the password while there is a line to type it on
     # A failing update (a third party's archive, say) need not concern our packages: the installation tells.
-    "${as_root[@]}" apt-get update -qq || true
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -qq --no-install-recommends "${missing[@]}"
+    step "Asking the archive" "${as_root[@]}" sh -c 'apt-get update || true'
+    LC_ALL=C "${install[@]}" --assume-no "${missing[@]}" 2>/dev/null | sed -n '/^Need to get/p; /^After this/p' || true
+    step "Installing" "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive "${install[@]}" --assume-yes "${missing[@]}"
 }
 
 # configure [-DNAME=VALUE...]
@@ -74,11 +99,60 @@ configure() {
     if [[ -n ${VCPKG_ROOT:-} ]]; then
         toolchain=(--toolchain "$VCPKG_ROOT/scripts/buildsystems/vcpkg.cmake")
     fi
-    cmake --preset "$preset" "${toolchain[@]}" "$@"
+    step "Configuring" cmake --preset "$preset" "${toolchain[@]}" "$@"
+}
+
+# How far the build is, in one line of a terminal; reads what the build says.
+show_progress() {
+    local line
+    while IFS= read -r line; do
+        if [[ -t 1 && $line =~ ^\[([0-9]+)/([0-9]+)\] ]]; then
+            printf '\rCompiling ... %s of %s ' "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}"
+        fi
+        printf '%s\n' "$line" >>$log
+    done
+}
+
+build_with_progress() {
+    cmake --build --preset "$preset" "$@" 2>&1 | show_progress
 }
 
 build() {
-    cmake --build --preset "$preset" "$@"
+    local begin=$SECONDS folder=build
+    case $preset in
+        fuzz | package) folder=build/$preset ;;
+        asan | tsan) folder=build-$preset ;;
+    esac
+    if [[ ! -e $folder/bin ]]; then
+        echo "Compiling takes about $((20 / $(nproc) + 1)) min on these $(nproc) processors, and 1 GB in $folder/; $log tells the details"
+    fi
+    printf 'Compiling ... '
+    if ! build_with_progress "$@"; then
+        echo failed
+        tail -n 40 $log >&2
+        fail "all that was said is in $log"
+    fi
+    echo "$((SECONDS - begin)) s"
+}
+
+# Has ./build.sh run --minimal left out the window?
+is_minimal() {
+    grep -qs '^RT_BUILD_GUI:BOOL=OFF' build/CMakeCache.txt
+}
+
+# Packages with the time of the newest entry of their changelog, as Debian's tools do: the same sources make the same bytes.
+make_packages() {
+    local date
+    date=$(sed -n 's/^ -- .*>  //p' cmake/packages/changelog | head -n 1)
+    SOURCE_DATE_EPOCH=$(date --date="$date" +%s)
+    export SOURCE_DATE_EPOCH
+    umask 022
+    preset=package configure
+    preset=package build
+    mkdir -p build/packages
+    step "Packing" cpack --config build/package/CPackConfig.cmake -B build/packages
+    rm -rf build/packages/_CPack_Packages
+    ls build/packages/*
 }
 
 # open_window cpu|gpu
@@ -134,8 +208,15 @@ case $verb in
         build
         ;;
     run)
+        if [[ ${1:-} == --minimal ]]; then
+            install_packages "${headless_packages[@]}"
+            configure -DRT_BUILD_GUI=OFF
+            build
+            compare_engines
+            exit
+        fi
         install_packages "${build_packages[@]}"
-        configure
+        if is_minimal; then configure -URT_BUILD_GUI; else configure; fi
         build
         if [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
             open_window "${1:-cpu}"
@@ -150,6 +231,15 @@ case $verb in
         build
         provide_device || fail "$no_device_reason"
         run_tests "$@"
+        ;;
+    package)
+        [[ -z ${1:-} || $1 == --test ]] || fail "package $1: must be --test or nothing"
+        install_packages "${build_packages[@]}" "${package_packages[@]}"
+        make_packages
+        if [[ ${1:-} == --test ]]; then
+            install_packages "${release_packages[@]}" lintian
+            tests/packages/run.sh build/packages/try
+        fi
         ;;
     fuzz)
         fixed=()

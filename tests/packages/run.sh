@@ -1,0 +1,124 @@
+#!/usr/bin/env bash
+# Tries the packages that ./build.sh package made, in a bare system of a release: the archive of one folder runs where nothing
+# is installed; the .deb installs, renders on CPU and GPU, opens its windows, is upgraded, and leaves nothing when it is purged.
+#   tests/packages/run.sh FOLDER [RELEASE]   as root; RELEASE: the one that the packages were built on, which this machine's is
+# The bare system is made once, in FOLDER/RELEASE.bare, and copied for each try. Pictures of the windows stay in FOLDER.
+# Prints a line for each thing tried. Exit code 0: all of them passed.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+
+fail() {
+    echo "tests/packages: $*" >&2
+    exit 1
+}
+
+. "$root/tests/releases/System.sh"
+
+((EUID == 0)) || fail "only root can make systems: use sudo"
+[[ ${1:-} && $1 != -* ]] || fail "say which folder to make systems in"
+mkdir -p "$1"
+folder=$(cd "$1" && pwd)
+release=${2:-$(. /etc/os-release && echo "$VERSION_CODENAME")}
+system=$folder/$release
+log=$folder/$release.log
+[[ " ${releases[*]} " == *" $release "* ]] || fail "$release: must be among ${releases[*]}"
+packages=("$root"/build/packages/*.deb)
+archives=("$root"/build/packages/*.tar.gz)
+((${#packages[@]} == 1 && ${#archives[@]} == 1)) && [[ -e ${packages[0]} && -e ${archives[0]} ]] ||
+    fail "there must be one .deb and one .tar.gz in build/packages: ./build.sh package makes them"
+: >"$log"
+failures=0
+
+# try WHAT COMMAND: in the system; a line on what came of it.
+try() {
+    printf '\n==== %s\n' "$1" >>"$log"
+    if run_in "$system" "set -e; $2" >>"$log" 2>&1 </dev/null; then
+        echo "passed: $1"
+    else
+        echo "FAILED: $1 ($log)"
+        failures=$((failures + 1))
+    fi
+}
+
+# ---- the package by itself -----------------------------------------------------------------------------------------
+if command -v lintian >/dev/null; then
+    if lintian --fail-on error,warning "${packages[0]}" >>"$log" 2>&1; then
+        echo "passed: lintian has neither errors nor warnings"
+    else
+        echo "FAILED: lintian ($log)"
+        failures=$((failures + 1))
+    fi
+else
+    echo "not tried: lintian, which is not installed"
+fi
+
+# ---- a bare system -------------------------------------------------------------------------------------------------
+if [[ ! -d $system.bare ]]; then
+    archive=$(archive_of "$release")
+    [[ $archive ]] || fail "no archive that has $release can be reached"
+    make_system "$release" "$archive" >>"$log" 2>&1 || fail "no system could be made: $log"
+    mv "$system" "$system.bare"
+fi
+rm -rf --one-file-system "$system"
+cp -a "$system.bare" "$system"
+mkdir "$system/packages"
+cp "${archives[0]}" "$system/packages/programs.tar.gz"
+cp "${packages[0]}" "$system/packages/new.deb"
+# The version before: the same files under a lower number.
+dpkg-deb -R "${packages[0]}" "$folder/old"
+sed -i 's/^Version: .*/Version: 0.0.1/' "$folder/old/DEBIAN/control"
+dpkg-deb --root-owner-group -b "$folder/old" "$system/packages/old.deb" >>"$log"
+rm -rf "${folder:?}/old"
+
+render="--no-config -q --scene cube-and-spheres --width 64 --spp 4"
+install="DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends"
+
+try "the archive's libraries of the system" "apt-get update && $install libvulkan1"
+try "the archive of one folder renders, from another folder" "
+    mkdir -p '/opt/a folder' && tar -xzf /packages/programs.tar.gz -C '/opt/a folder'
+    cd / && '/opt/a folder'/*/bin/ray-tracing-cpu $render -o /tmp/archive.pfm
+    '/opt/a folder'/*/bin/ray-tracing-image info /tmp/archive.pfm
+    rm -r '/opt/a folder'"
+
+try "the package installs" "$install /packages/old.deb"
+backports=
+if run_in "$system" "! dpkg --compare-versions \$(apt-cache policy mesa-vulkan-drivers | awk '/Candidate/ { print \$2 }') ge 25" \
+    >/dev/null 2>&1; then
+    backports="-t $release-backports"
+    sed -n "s/^\(deb [^ ]*\) $release main.*/\1 $release-backports main/p" "$system/etc/apt/sources.list" \
+        >"$system/etc/apt/sources.list.d/backports.list"
+fi
+try "a driver and a screen install" "apt-get update && $install $backports mesa-vulkan-drivers && $install xvfb x11-apps"
+
+# Files of the system, without what apt and dpkg keep of their work, caches and what this try itself writes.
+list_files="find / -xdev \\( -path /proc -o -path /tmp -o -path /packages -o -path /var/lib/dpkg -o -path /var/lib/apt \
+    -o -path /var/log -o -path /var/cache -o -path /root \\) -prune -o -print | sort"
+try "the package is purged" "dpkg --purge ray-tracing-twins && $list_files >/packages/before"
+try "the version before installs" "$install /packages/old.deb"
+try "it is upgraded" "$install /packages/new.deb && dpkg -s ray-tracing-twins | grep -v 'Version: 0.0.1' | grep '^Version: '"
+
+try "CPU renders" "cd / && ray-tracing-cpu $render -o /tmp/cpu.pfm"
+try "GPU renders the same picture" "cd / && ray-tracing-gpu --list-devices && ray-tracing-gpu $render -o /tmp/gpu.pfm
+    ray-tracing-image diff /tmp/cpu.pfm /tmp/gpu.pfm --metric relmse --max 0.01"
+try "the archive's picture is the package's" "cmp /tmp/archive.pfm /tmp/cpu.pfm"
+try "--version names the version" "ray-tracing-cpu --version; ray-tracing-cpu --version | grep -q \"\$(dpkg-query -W -f '\${Version}' ray-tracing-twins)\""
+for program in cpu gpu; do
+    # As the menu starts it. A screen that shows a picture has many colours.
+    try "the window of ray-tracing-$program opens" "
+        command=\$(sed -n 's/^Exec=//p' /usr/share/applications/ray-tracing-$program.desktop)
+        Xvfb :1 -screen 0 1280x800x24 -nolisten tcp & sleep 3
+        export DISPLAY=:1 HOME=/tmp
+        \$command --no-config --scene cornell-box-lights & sleep 25
+        kill -0 %2
+        xwd -root -silent >/packages/window-$program.xwd
+        kill %2; wait %2 || true
+        kill %1
+        test \$(od -An -v -tx4 -w4 /packages/window-$program.xwd | sort -u | wc -l) -gt 1000"
+    cp "$system/packages/window-$program.xwd" "$folder/" 2>/dev/null || true
+done
+try "nothing is left when it is purged" "dpkg --purge ray-tracing-twins && $list_files >/packages/after
+    diff /packages/before /packages/after
+    ! find / -xdev -path /proc -prune -o -path /packages -prune -o -path /var/cache -prune -o -name '*ray-tracing*' -print | grep ."
+
+((failures)) || rm -rf --one-file-system "$system"
+exit $((failures > 0))
