@@ -27,8 +27,8 @@ void checkEngines(const std::vector<std::string>& engines) {
             app::refuseValue("--engine", engine, app::alternatives({std::begin(kEngines), std::end(kEngines)}));
 }
 
-constexpr const char* kName = "ray-tracing-bench";
-constexpr const char* kDescription =
+constexpr const char* kBenchProgram = "ray-tracing-bench";
+constexpr const char* kBenchDescription =
     "Measures run time against error: engines, estimators, samplers. Exit code 5: --compare found a regression.";
 
 struct BenchFlags {
@@ -84,15 +84,16 @@ void addOtherModes(CLI::App& app, BenchOptions& options) {
         "the shaders; of Cornell Box Lights on GPU engines unless --scene and --engine say otherwise"));
 }
 
-void addFlags(CLI::App& app, BenchFlags& flags) {
+void addBenchFlags(CLI::App& app, BenchFlags& flags) {
     app.set_help_flag("--help,-h", "print the flags that matter most and exit");
     app.set_help_all_flag("--help-all", "print every flag and exit");
-    app.set_version_flag("--version", versionText(kName), "print version, commit, features and compilers and exit");
+    app.set_version_flag("--version", versionText(kBenchProgram),
+                         "print version, commit, features and compilers and exit");
     addSuiteFlags(app, flags);
     addOtherModes(app, flags.options);
 }
 
-manual::Page pageOfFlags(const CLI::App& app) {
+manual::Page benchPageOf(const CLI::App& app) {
     manual::Page page = manual::pageOf(app);
     page.essentials = {"--list-suites", "--scene", "--engine", "--report", "--device", "--compare"};
     page.environment = {{"XDG_CACHE_HOME", "ray-tracing/references in it holds references that were rendered"}};
@@ -104,23 +105,23 @@ manual::Page pageOfFlags(const CLI::App& app) {
 } // namespace
 
 manual::Page benchPage() {
-    CLI::App app{kDescription, kName};
+    CLI::App app{kBenchDescription, kBenchProgram};
     BenchFlags flags;
-    addFlags(app, flags);
-    return pageOfFlags(app);
+    addBenchFlags(app, flags);
+    return benchPageOf(app);
 }
 
 std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& arguments, std::ostream& out) {
-    CLI::App app{kDescription, kName};
+    CLI::App app{kBenchDescription, kBenchProgram};
     BenchFlags flags;
-    addFlags(app, flags);
+    addBenchFlags(app, flags);
     try {
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend())); // the order that CLI11 takes
     } catch (const CLI::CallForHelp&) {
-        out << manual::helpText(pageOfFlags(app));
+        out << manual::helpText(benchPageOf(app));
         return std::nullopt;
     } catch (const CLI::CallForAllHelp&) {
-        out << manual::fullHelpText(pageOfFlags(app));
+        out << manual::fullHelpText(benchPageOf(app));
         return std::nullopt;
     } catch (const CLI::CallForVersion& version) {
         out << version.what() << '\n';

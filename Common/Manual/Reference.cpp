@@ -38,7 +38,7 @@ void appendRow(std::string& out, const Flag& flag) {
 
 constexpr const char* kTableHead = "| flag | default | what it does |\n|---|---|---|\n";
 
-void appendFlags(std::string& out, const Page& page, const std::string& level) {
+void appendReferenceFlags(std::string& out, const Page& page, const std::string& level) {
     if (!page.arguments.empty()) {
         out += "\n| argument | default | what it is |\n|---|---|---|\n";
         for (const Flag& argument : page.arguments) appendRow(out, argument);
@@ -56,10 +56,10 @@ void appendFlags(std::string& out, const Page& page, const std::string& level) {
 
 std::string referenceChapter(const Page& page) {
     std::string out = "\n## " + page.name + "\n\n" + page.summary + "\n\n    " + usageOf(page) + "\n";
-    appendFlags(out, page, "###");
+    appendReferenceFlags(out, page, "###");
     for (const Page& command : page.commands) {
         out += "\n### " + command.name + "\n\n" + command.summary + ".\n\n    " + usageOf(command) + "\n";
-        appendFlags(out, command, "####");
+        appendReferenceFlags(out, command, "####");
     }
     if (!page.environment.empty()) out += "\n### Environment\n\n";
     for (const Term& variable : page.environment) out += "- " + code(variable.name) + ": " + cell(variable.help) + "\n";
