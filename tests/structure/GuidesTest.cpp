@@ -111,6 +111,29 @@ bool looksLikeName(const std::string& span) {
 
 } // namespace
 
+// [text](file#place) and src="file" lead to files of this tree.
+TEST(Guides, LinksLeadSomewhere) {
+    static const std::regex link(R"re(\]\(([^)#\s]+)(#[^)]*)?\)|src="([^"]+)")re");
+    std::size_t links = 0;
+    for (const fs::path& guide : guides()) {
+        const std::string text = textOf(guide);
+        for (std::sregex_iterator match(text.begin(), text.end(), link), end; match != end; ++match) {
+            const std::string target = (*match)[1].matched ? (*match)[1] : (*match)[3];
+            if (target.starts_with("http")) continue;
+            ++links;
+            EXPECT_TRUE(fs::exists(guide.parent_path() / target)) << guide.filename().string() << " links " << target;
+        }
+    }
+    EXPECT_GT(links, 30u);
+}
+
+TEST(Guides, ReadmeIsOnePage) {
+    const std::string text = textOf(kSources / "README.md");
+    EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 100);
+    for (const char* command : {"./build.sh run", "./build.sh test", "./build.sh package"})
+        EXPECT_NE(text.find("\n    " + std::string(command) + " "), std::string::npos) << command;
+}
+
 TEST(Guides, NameOnlyWhatExists) {
     const Tree tree = readTree();
     std::size_t paths = 0, names = 0;
