@@ -120,8 +120,8 @@ build_with_progress() {
 build() {
     local begin=$SECONDS folder=build
     case $preset in
-        fuzz | package) folder=build/$preset ;;
-        asan | tsan) folder=build-$preset ;;
+        fuzz) folder=build/$preset ;;
+        asan | tsan | package) folder=build-$preset ;;
     esac
     if [[ ! -e $folder/bin ]]; then
         echo "Compiling takes about $((20 / $(nproc) + 1)) min on these $(nproc) processors, and 1 GB in $folder/; $log tells the details"
@@ -150,7 +150,7 @@ make_packages() {
     preset=package configure
     preset=package build
     mkdir -p build/packages
-    step "Packing" cpack --config build/package/CPackConfig.cmake -B build/packages
+    step "Packing" cpack --config build-package/CPackConfig.cmake -B build/packages
     rm -rf build/packages/_CPack_Packages
     ls build/packages/*
 }

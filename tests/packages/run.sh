@@ -52,6 +52,16 @@ else
     echo "not tried: lintian, which is not installed"
 fi
 
+# The same bytes wherever it is built: no path of this checkout is in it.
+dpkg-deb -x "${packages[0]}" "$folder/unpacked"
+if grep -rlF "$root" "$folder/unpacked" >>"$log"; then
+    echo "FAILED: files name the folder that they were built in ($log)"
+    failures=$((failures + 1))
+else
+    echo "passed: no file names the folder that it was built in"
+fi
+rm -rf "${folder:?}/unpacked"
+
 # ---- a bare system -------------------------------------------------------------------------------------------------
 if [[ ! -d $system.bare ]]; then
     archive=$(archive_of "$release")
