@@ -15,6 +15,7 @@ fuzz_packages=(clang libclang-rt-dev) # which holds libFuzzer and the sanitizers
 cluster_packages=(libopenmpi-dev openmpi-bin)
 release_packages=(debootstrap git)
 package_packages=(dpkg-dev file)
+docs_packages=(mkdocs)
 
 preset=release # whatever the environment: what users build is what is tested
 log=build/build.log
@@ -60,6 +61,7 @@ usage() {
 ./build.sh package       packages for this system in build/packages: .deb, and .tar.gz that runs from any folder
 ./build.sh package --test
                          then, as root, try them in a bare system (tests/packages/run.sh): for nights
+./build.sh docs          the guides as a site in build/site
 ./build.sh cluster       the same as ./build.sh, and what mpirun needs to share a render out (docs/many-machines.md)
 ./build.sh bench [ARGS]  build, then run ray-tracing-bench with ARGS
 With VCPKG_ROOT set, libraries come from vcpkg; otherwise from apt (Debian 12 or newer, Ubuntu 24.04 or newer).
@@ -240,6 +242,10 @@ case $verb in
             install_packages "${release_packages[@]}" lintian
             tests/packages/run.sh build/packages/try
         fi
+        ;;
+    docs)
+        install_packages "${docs_packages[@]}"
+        step "Writing build/site" mkdocs build --clean
         ;;
     fuzz)
         fixed=()
