@@ -18,7 +18,7 @@ package_packages=(dpkg-dev file)
 docs_packages=(mkdocs)
 
 preset=release # whatever the environment: what users build is what is tested
-log=build/build.log
+log=build/build.log # of one call
 
 fail() {
     echo "build.sh: $*" >&2
@@ -126,7 +126,8 @@ build() {
         asan | tsan | package) folder=build-$preset ;;
     esac
     if [[ ! -e $folder/bin ]]; then
-        echo "Compiling takes about $((20 / $(nproc) + 1)) min on these $(nproc) processors, and 1 GB in $folder/; $log tells the details"
+        echo "Compiling takes about $((20 / $(nproc) + 1)) min on these $(nproc) processors, and half a GB in $folder/;" \
+            "$log tells the details"
     fi
     printf 'Compiling ... '
     if ! build_with_progress "$@"; then
@@ -196,6 +197,7 @@ sanitize() {
         --label-regex 'unit|image|program' --label-exclude nightly
 }
 
+rm -f $log 2>/dev/null || true # of whom may not, the first step tells
 verb=${1:-build}
 shift $(($# > 0))
 case $verb in
