@@ -41,6 +41,10 @@ if(UNIX AND NOT APPLE)
             DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo COMPONENT programs)
     install(FILES ${desktop}/ray-tracing-twins.mime.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages
             RENAME ray-tracing-twins.xml COMPONENT programs)
+    set(zsh_functions site-functions)
+    if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+        set(zsh_functions vendor-completions) # of packages
+    endif()
     set(icons ${CMAKE_INSTALL_DATADIR}/icons/hicolor)
     install(FILES ${desktop}/ray-tracing-twins.svg DESTINATION ${icons}/scalable/apps COMPONENT programs)
     foreach(size IN ITEMS 16 24 32 48 64 128 256)
@@ -53,7 +57,7 @@ if(UNIX AND NOT APPLE)
         install(FILES ${RT_MANUAL}/bash/${program}
                 DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT programs)
         install(FILES ${RT_MANUAL}/zsh/_${program}
-                DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT programs)
+                DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${zsh_functions} COMPONENT programs)
         install(FILES ${RT_MANUAL}/fish/${program}.fish
                 DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT programs)
     endforeach()

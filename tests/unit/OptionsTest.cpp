@@ -12,6 +12,7 @@
 #include "Common/App/Options/Options.h"
 #include "Common/App/Session/FeatureNames.h"
 #include "Common/Core/Error.h"
+#include "Common/Manual/Page.h"
 #include "Common/Shared/Base/Features.h"
 #include "tests/Environment.h"
 
@@ -405,6 +406,8 @@ TEST_F(OptionsTest, TheUsersConfigurationIsReadUnlessRefused) {
     EXPECT_EQ(render({}).settings.spp, 13u);
     EXPECT_EQ(render({"--no-config"}).settings.spp, 100u);
     EXPECT_EQ(error({"--config=" + own, "--no-config"}), "--no-config: contradicts --config");
+    const manual::Page page = OptionParser("ray-tracing-cpu").page(); // which is for everybody
+    EXPECT_EQ(manual::findFlag(page, "--config")->byDefault, "");
     writeFile("ray-tracing/config.toml", "spp = 17\n");
     EXPECT_EQ(render({}).settings.spp, 17u);
     writeFile("ray-tracing/config.toml", "spp = zero\n");

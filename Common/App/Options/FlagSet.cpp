@@ -124,6 +124,8 @@ manual::Page FlagSet::page() const {
     page.essentials = description_.essentials;
     page.examples = description_.examples;
     page.environment = description_.environment;
+    for (manual::Flag& flag : page.flags)
+        if (flag.names.front() == "--config") flag.byDefault.clear(); // it is this user's own file
     return page;
 }
 
