@@ -6,16 +6,16 @@ file(REMOVE_RECURSE ${SCRATCH})
 set(root ${SCRATCH}/a/b/c/d/root) # deep: the programs look for Assets in the folders around them
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --config "${CONFIG}" --component programs --prefix ${root}
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
-foreach(file IN ITEMS share/ray-tracing-twins/models/cube_multi.obj share/ray-tracing-twins/scene.schema.json)
+foreach(file IN ITEMS share/ray-tracing-twins/scenes/irradiance/quad.json share/ray-tracing-twins/scene.schema.json)
     if(NOT EXISTS ${root}/${file})
         message(FATAL_ERROR "${file} is not installed")
     endif()
 endforeach()
 
-# Renders a scene with a model of the assets to `picture`.
+# Renders a scene file of the assets to `picture`.
 function(render picture)
     execute_process(COMMAND ${CMAKE_COMMAND} -E env --unset=RT_ASSETS ${ARGN}
-                            ${root}/bin/ray-tracing-cpu --no-config -q --scene cube-and-spheres --width 32 --spp 4 -o ${picture}
+                            ${root}/bin/ray-tracing-cpu --no-config -q --scene irradiance/quad.json --width 32 --spp 4 -o ${picture}
                     WORKING_DIRECTORY ${SCRATCH} RESULT_VARIABLE result ERROR_VARIABLE error)
     set(result ${result} PARENT_SCOPE)
     set(error "${error}" PARENT_SCOPE)

@@ -80,7 +80,7 @@ sed -i 's/^Version: .*/Version: 0.0.1/' "$folder/old/DEBIAN/control"
 dpkg-deb --root-owner-group -b "$folder/old" "$system/packages/old.deb" >>"$log"
 rm -rf "${folder:?}/old"
 
-render="--no-config -q --scene cube-and-spheres --width 64 --spp 4"
+render="--no-config -q --scene irradiance/quad.json --width 64 --spp 4"
 install="DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends"
 
 try "the archive's libraries of the system" "apt-get update && $install libvulkan1"
