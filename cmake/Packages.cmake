@@ -40,8 +40,6 @@ and a benchmark of run time against error.")
 if(UNIX AND NOT APPLE)
     set(documents ${CMAKE_INSTALL_DATADIR}/doc/ray-tracing-twins)
     install(FILES cmake/packages/copyright DESTINATION ${documents} COMPONENT debian EXCLUDE_FROM_ALL)
-    install(FILES cmake/packages/lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides
-            RENAME ray-tracing-twins COMPONENT debian EXCLUDE_FROM_ALL)
     if(RT_GZIP)
         set(changelog ${PROJECT_BINARY_DIR}/debian/changelog)
         configure_file(cmake/packages/changelog ${changelog} @ONLY)
