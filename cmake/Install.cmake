@@ -18,6 +18,9 @@ endforeach()
 if(UNIX AND NOT APPLE)
     file(RELATIVE_PATH from_bin /${CMAKE_INSTALL_BINDIR} /${RT_PRIVATE_LIBRARIES})
     set_target_properties(${installed} PROPERTIES INSTALL_RPATH $ORIGIN/${from_bin})
+    foreach(program IN LISTS installed) # libraries that come along find each other there, too
+        target_link_options(${program} PRIVATE LINKER:--disable-new-dtags)
+    endforeach()
 endif()
 install(TARGETS ${installed} RUNTIME_DEPENDENCY_SET rt-libraries
         RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
@@ -28,6 +31,7 @@ if(NOT CMAKE_CROSSCOMPILING)
     install(RUNTIME_DEPENDENCY_SET rt-libraries PRE_EXCLUDE_REGEXES ${left_out} POST_EXCLUDE_REGEXES ".*system32/.*\\.dll"
             LIBRARY DESTINATION ${RT_PRIVATE_LIBRARIES} COMPONENT libraries EXCLUDE_FROM_ALL
             RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT libraries EXCLUDE_FROM_ALL)
+    install(SCRIPT cmake/packages/Licenses.cmake COMPONENT libraries EXCLUDE_FROM_ALL)
 endif()
 install(DIRECTORY Assets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/ray-tracing-twins COMPONENT programs
         PATTERN desktop EXCLUDE)
