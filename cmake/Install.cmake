@@ -22,12 +22,15 @@ if(UNIX AND NOT APPLE)
         target_link_options(${program} PRIVATE LINKER:--disable-new-dtags)
     endforeach()
 endif()
-install(TARGETS ${installed} RUNTIME_DEPENDENCY_SET rt-libraries
-        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+set(dependencies "")
+if(CMAKE_SYSTEM_NAME MATCHES "^(Linux|Windows)$" AND NOT CMAKE_CROSSCOMPILING) # where CMake finds what programs load
+    set(dependencies RUNTIME_DEPENDENCY_SET rt-libraries)
+endif()
+install(TARGETS ${installed} ${dependencies} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 if(TARGET ray-tracing-mpi)
     install(TARGETS ray-tracing-mpi LIBRARY DESTINATION ${RT_PRIVATE_LIBRARIES} COMPONENT programs)
 endif()
-if(NOT CMAKE_CROSSCOMPILING)
+if(dependencies)
     install(RUNTIME_DEPENDENCY_SET rt-libraries PRE_EXCLUDE_REGEXES ${left_out} POST_EXCLUDE_REGEXES ".*system32/.*\\.dll"
             LIBRARY DESTINATION ${RT_PRIVATE_LIBRARIES} COMPONENT libraries EXCLUDE_FROM_ALL
             RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT libraries EXCLUDE_FROM_ALL)
