@@ -83,12 +83,13 @@ rm -rf "${folder:?}/old"
 render="--no-config -q --scene irradiance/quad.json --width 64 --spp 4"
 install="DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends"
 
-try "the archive's libraries of the system" "apt-get update && $install libvulkan1"
+# What the archive leaves to the system, as the drivers of screens and graphics belong to it.
+try "the archive's libraries of the system" "apt-get update && $install libvulkan1 libx11-6"
 try "the archive of one folder renders, from another folder" "
     mkdir -p '/opt/a folder' && tar -xzf /packages/programs.tar.gz -C '/opt/a folder'
     cd / && '/opt/a folder'/*/bin/ray-tracing-cpu $render -o /tmp/archive.pfm
-    '/opt/a folder'/*/bin/ray-tracing-image info /tmp/archive.pfm
-    rm -r '/opt/a folder'"
+    '/opt/a folder'/*/bin/ray-tracing-image info /tmp/archive.pfm"
+rm -rf "$system/opt/a folder"
 
 try "the package installs" "$install /packages/old.deb"
 backports=
