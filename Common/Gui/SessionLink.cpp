@@ -4,8 +4,11 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "Common/Core/Printable.h"
 #include "Common/Gui/Panels/EnginePanel.h"
 #include "Common/Gui/Panels/SavePaths.h"
 #include "Common/Gui/Panels/ViewModes.h"
@@ -116,6 +119,11 @@ void SessionLink::rememberScene() {
     if (!std::filesystem::is_regular_file(state.source, none)) return; // a built-in one
     settings.scene = std::filesystem::absolute(state.source, none).string();
     settings.addRecent(settings.scene);
+    const std::vector<std::string>& notices = state.scene->notices;
+    if (notices.empty()) return;
+    const std::size_t more = notices.size() - 1;
+    gui_.say(state.scene->title + ": " + printable(notices.front()) +
+             (more > 0 ? " (" + std::to_string(more) + " more in the panel Scene)" : ""));
 }
 
 // A scene file that has changed is read again, once it stays as it is for a moment: it may still be being written.

@@ -51,7 +51,7 @@ TEST_F(InteractiveFilesTest, ModelsThatAreDroppedBecomeTheScene) {
         EXPECT_EQ(state.scene->materials.at(0).kind,
                   file.extension() == ".obj" ? shared::kMaterialLambertian : shared::kMaterialPrincipled);
     }
-    EXPECT_EQ(session.state().scene->notices.size(), 1u) << "which the panel of the scene shows";
+    EXPECT_EQ(session.state().scene->notices.size(), 2u) << "of its studio and its material; the panel shows them";
     scene::GltfBuilder::write(folder_ / "broken.glb", gltf.binary().substr(0, 100));
     session.open((folder_ / "broken.glb").string());
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 1; }));

@@ -223,7 +223,6 @@ TEST_F(ObjLoader, AFileAloneIsAScene) {
     EXPECT_EQ(scene.id, "model.obj");
     const auto compiled = compileScene(scene);
     EXPECT_EQ(compiled->triangles.size(), 2u);
-    EXPECT_TRUE(shared::has(compiled->features, shared::kFeatureSky));
     // All of it is in view: inside the cone around the view that fits a square picture.
     const CameraDesc& camera = scene.camera;
     const glm::dvec3 view = glm::normalize(camera.lookAt - camera.lookFrom);

@@ -23,6 +23,7 @@
 #include "Common/Scene/Gltf/GltfLoader.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "Common/Scene/Obj/ObjLoader.h"
+#include "Common/Scene/Studio.h"
 
 namespace rt::app {
 namespace {
@@ -96,7 +97,10 @@ scene::SceneDesc loadScene(const std::string& source) {
     if (loader == loaders.end()) return scene::findBuiltinScene(source);
     std::error_code none;
     if (path.is_relative() && !std::filesystem::exists(path, none)) path = findAsset("scenes" / path).value_or(path);
-    return loader->second(path);
+    scene::SceneDesc scene = loader->second(path);
+    // A scene file says what light there is.
+    if (extension != ".json") scene::addStudioIfUnlit(scene, scene::boundsOfMeshes(scene));
+    return scene;
 }
 
 std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights,

@@ -33,10 +33,6 @@ namespace rt::scene {
 
 namespace {
 
-// What shows a model that brings no light: neutral, so that colours are right, and uneven, as white things would vanish
-// before a constant.
-const GradientBackground kStudio{glm::dvec3(0.3), glm::dvec3(1)};
-
 Transform toTransform(const Affine& map) {
     Matrix matrix;
     for (int row = 0; row < 3; ++row) {
@@ -63,7 +59,6 @@ class Importer {
         addMeshes();
         addLights();
         addCameras(file_, nodes_, bounds_, scene_);
-        addBackground();
         addNotices();
         return std::move(scene_);
     }
@@ -231,7 +226,6 @@ class Importer {
             const glm::dvec3 position = placed.toWorld.offset, forward = placed.toWorld.vector({0, 0, -1});
             if (source.type != "point" && !(glm::length(forward) > 0))
                 file_.fail(placeOfNode(placed.node), "its transform leaves the light no direction");
-            hasLights_ = true;
             if (source.type == "point") {
                 scene_.objects.push_back({PointLightDesc{position, power}});
             } else if (source.type == "directional") {
@@ -247,13 +241,6 @@ class Importer {
                 file_.fail(place, "type: must be point, spot or directional");
             }
         }
-    }
-
-    // Assets come without any light, or with small parts that glow: a bright surrounding shows them.
-    void addBackground() {
-        if (hasLights_ || materials_.emitsAsLight()) return;
-        scene_.background = kStudio;
-        scene_.notices.push_back("there is no light in the file: the background is a gradient of grey");
     }
 
     void addNotices() {
@@ -287,7 +274,6 @@ class Importer {
     std::size_t withoutTriangles_ = 0;
     std::size_t flattened_ = 0;     // places of meshes
     std::size_t withoutJoints_ = 0; // nodes with a skin that moves nothing
-    bool hasLights_ = false;
 };
 
 } // namespace

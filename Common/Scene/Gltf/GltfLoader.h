@@ -6,9 +6,9 @@
 
 namespace rt::scene {
 
-// A .gltf or .glb file as a scene: its default scene, seen by its first camera, or from the front where there is none.
-// Images stay where they are, named by ImageTexture. What is left out gets a notice. Throws InputError in one line,
-// naming the file and its JSON path.
+// A .gltf or .glb file as a scene: its default scene, without other light than its own, seen by its first camera, or
+// from the front where there is none. Images stay where they are, named by ImageTexture. What is left out gets a
+// notice. Throws InputError in one line, naming the file and its JSON path.
 SceneDesc loadGltfScene(const std::filesystem::path& path);
 
 } // namespace rt::scene

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
 
 #include "Common/Scene/Gltf/GltfValues.h"
 #include "Common/Scene/Json/JsonNode.h"
@@ -100,7 +99,6 @@ MaterialDesc GltfMaterials::lit(const tinygltf::Material& source) {
         material.emission = glm::clamp(material.emission * numberOf(*strength, "emissiveStrength", 1), 0.0, kLargest);
     if (material.emission != glm::dvec3(0))
         material.emissionTexture = textures_.texture(GltfSlot(source.emissiveTexture), ColorSpace::Srgb, glm::dvec3(1));
-    emitsAsLight_ = emitsAsLight_ || glm::any(glm::greaterThan(material.emission, glm::dvec3(1)));
     if (const auto* coat = extension(source.extensions, "KHR_materials_clearcoat")) addClearcoat(*coat, p);
     if (const auto* sheen = extension(source.extensions, "KHR_materials_sheen")) {
         p.sheenColor = textures_.color(vectorOf(*sheen, "sheenColorFactor", 0), GltfSlot(*sheen, "sheenColorTexture"));

@@ -28,7 +28,6 @@ class GltfMaterials {
 
     // Of a primitive; -1: the material of primitives without one.
     const Use& use(int material);
-    bool emitsAsLight() const { return emitsAsLight_; } // some material is brighter than white
 
   private:
     void add(std::size_t index);
@@ -47,7 +46,6 @@ class GltfMaterials {
     GltfTextures textures_;
     std::vector<Use> uses_;
     std::optional<Use> plain_;
-    bool emitsAsLight_ = false;
 };
 
 } // namespace rt::scene

@@ -246,7 +246,6 @@ SceneDesc loadObjScene(const fs::path& path) {
     SceneDesc scene;
     scene.id = path.filename().string();
     scene.title = printable(scene.id);
-    scene.background = GradientBackground{};
     scene.notices = std::move(model.notices);
     scene.materials = std::move(model.materials);
     scene.textures = std::move(model.textures);

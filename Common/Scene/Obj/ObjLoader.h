@@ -34,7 +34,8 @@ MaterialDesc plainMaterial();
 // with file and line.
 ObjModel loadObj(const std::filesystem::path& path, bool withMaterials, const std::string& prefix = {});
 
-// A scene of the file alone, under a gradient sky, seen whole from the front, slightly from the right and above.
+// A scene of the file alone, without other light than its own, seen whole from the front, slightly from the right and
+// above.
 SceneDesc loadObjScene(const std::filesystem::path& path);
 
 } // namespace rt::scene
