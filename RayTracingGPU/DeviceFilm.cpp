@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "Common/Core/Interruption.h"
 #include "Common/Vulkan/Pipelines.h"
 
 namespace rt::gpu {
@@ -50,6 +51,7 @@ DeviceFilm::DeviceFilm(vulkan::VulkanContext& context, const image::FilmDesc& de
       sharesPaths_(sharesPaths) {
     const VkDeviceSize pixels = VkDeviceSize{capacity_} * kTilePixels;
     const auto make = [&](VkDeviceSize bytes) {
+        interruptionPoint(); // a large film takes seconds, in which its user may want something else
         return vulkan::Buffer(context.memory(), bytes, 0, vulkan::Memory::Device, "the film");
     };
     samplesBuffer_ = make((VkDeviceSize{capacity_} + tiles) * sizeof(std::uint32_t));
@@ -81,6 +83,7 @@ void DeviceFilm::load(const Film& film, const image::TileList& tiles, std::size_
     std::vector<vec3> open;
     bool anyOpen = false;
     for (std::uint32_t slot = 0; slot < slotCount(); ++slot) {
+        if (slot % kChunk == 0) interruptionPoint();
         const Film::TileState state = film.state(tiles_[slot / desc_.replicates], slot % desc_.replicates);
         samples_[slot] = state.samples;
         anyOpen = anyOpen || !state.open.empty();
@@ -113,6 +116,7 @@ void DeviceFilm::loadPlan(const Film& film) {
     squares_ = {};
     plan_.clear();
     for (std::uint32_t slot = 0; slot < slotCount(); ++slot) {
+        if (slot % kChunk == 0) interruptionPoint();
         const auto plan = film.plan(tiles_[slot / desc_.replicates], slot % desc_.replicates);
         plan_.insert(plan_.end(), plan.begin(), plan.end());
     }

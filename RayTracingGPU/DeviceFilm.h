@@ -50,7 +50,8 @@ class FilmResolver {
 class DeviceFilm {
   public:
     // Room for `tiles` tiles of such a film, not initialised: load() comes first. `sharesPaths` where groups of pixels
-    // share their paths.
+    // share their paths. Both throw Interrupted where the thread's work is called off (Interruption.h); load() may come
+    // again then.
     DeviceFilm(vulkan::VulkanContext& context, const image::FilmDesc& desc, std::uint32_t tiles, bool sharesPaths);
 
     // Whether it can hold `tiles` tiles of the film; one that has followed a plan cannot hold a pilot again.

@@ -1,6 +1,7 @@
 // The film on the device: exact on its way there and back, it does not stagnate, and what a plan asks for is listed.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -9,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "Common/Core/Interruption.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/StagingRing.h"
 #include "RayTracingGPU/DeviceFilm.h"
@@ -85,6 +87,26 @@ TEST(DeviceFilmTest, RoundTripIsExact) {
     onDevice.store(back);
     EXPECT_TRUE(std::equal(sums.begin(), sums.end(), back.state(0, 0).sums.begin()));
     EXPECT_TRUE(std::equal(sums.begin(), sums.end(), back.state(0, 0).squares.begin()));
+}
+
+// Both its memory and its loading, which can come again.
+TEST(DeviceFilmTest, ReservingCanBeCalledOff) {
+    const image::FilmDesc desc{8, 8, 1, false};
+    const std::vector<double> sums(Film::kTilePixels * 3, 7.0);
+    Film film(desc);
+    film.assign(0, 0, {16, sums, {}, {}});
+    std::atomic<bool> isCalledOff{true};
+    const Interruptible interruptible(isCalledOff);
+    EXPECT_THROW(gpu::DeviceFilm(device(), desc, 1, false), Interrupted);
+    isCalledOff = false;
+    gpu::DeviceFilm onDevice(device(), desc, 1, false);
+    isCalledOff = true;
+    EXPECT_THROW(onDevice.load(film, {0}, 0), Interrupted);
+    isCalledOff = false;
+    onDevice.load(film, {0}, 0);
+    Film back(desc);
+    onDevice.store(back);
+    EXPECT_TRUE(std::equal(sums.begin(), sums.end(), back.state(0, 0).sums.begin()));
 }
 
 constexpr std::uint32_t kManyBlocks = 1u << 15; // 524 288 samples

@@ -15,11 +15,13 @@ namespace rt::gui {
 namespace {
 
 constexpr double kPixelBytes = 100; // of a film, with the pictures made of it
+constexpr double kDeviceBytes = 60; // likewise, of the device that the GPU engine renders on, where it has them
 constexpr double kAskedBytes = 1e9; // from here on it is asked for
 
 struct Size {
     std::uint32_t width = 0, height = 0;
-    double bytes() const { return kPixelBytes * width * height; }
+    double pixels() const { return static_cast<double>(width) * height; }
+    double bytes() const { return kPixelBytes * pixels(); }
 };
 
 // Of an image of this aspect ratio whose memory leaves half of the machine's to others: one digit too many is not to
@@ -34,8 +36,10 @@ std::uint32_t maxWidth(double aspect) {
 std::string sizeText(const Size& size) {
     return std::to_string(size.width) + " x " + std::to_string(size.height);
 }
-std::string memoryText(const Size& size) {
-    return "about " + bytesText(static_cast<std::uint64_t>(size.bytes()));
+std::string memoryText(const Gui& gui, const Size& size) {
+    const auto text = [&size](double bytes) { return bytesText(static_cast<std::uint64_t>(bytes * size.pixels())); };
+    return "about " + text(kPixelBytes) + " of memory" +
+           (gui.isGpu ? ", and up to " + text(kDeviceBytes) + " of the device's" : "");
 }
 
 double aspectOf(const Gui& gui) {
@@ -68,7 +72,7 @@ void wish(Gui& gui, app::SizeRequest request) {
 void drawQuestion(Gui& gui) {
     if (!gui.askedSize) return;
     const Size size = sizeOf(gui, *gui.askedSize);
-    wrapped(sizeText(size) + " pixels take " + memoryText(size) + " of memory.", noticeColor(gui.settings.colorMode));
+    wrapped(sizeText(size) + " pixels take " + memoryText(gui, size) + ".", noticeColor(gui.settings.colorMode));
     if (button("Render at this size", "Stop gives it up while it is prepared", true)) {
         gui.settings.request.size = *gui.askedSize;
         gui.askedSize.reset();
@@ -93,7 +97,7 @@ void drawWidthAndHeight(Gui& gui) {
     const auto tip = [&](const char* other, std::uint32_t maximum) {
         return std::string("Pixels; the ") + other + " follows from the aspect ratio. At most " +
                std::to_string(maximum) + " here: a side has " + std::to_string(image::kMaxImageSide) +
-               ", and an image takes half of this machine's memory. " + sizeText(now) + " take " + memoryText(now);
+               ", and an image takes half of this machine's memory. " + sizeText(now) + " take " + memoryText(gui, now);
     };
     std::uint32_t width = size.width.value_or(film.width);
     markNextRow(size.width != app::SizeRequest().width);
@@ -125,7 +129,7 @@ void drawPresets(Gui& gui) {
     for (const Size& preset : kPresets) {
         const bool isNow = preset.width == now.width && preset.height == now.height;
         if (ImGui::Selectable(sizeText(preset).c_str(), isNow)) wish(gui, {preset.width, preset.height, {}});
-        tooltip(("Takes " + memoryText(preset) + " of memory").c_str());
+        tooltip(("Takes " + memoryText(gui, preset)).c_str());
     }
     ImGui::EndCombo();
 }
