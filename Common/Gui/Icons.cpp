@@ -131,21 +131,21 @@ void drawIcon(ImDrawList& list, Icon icon, ImVec2 corner, float side, ImU32 colo
     }
 }
 
-bool iconButton(const char* id, Icon icon, const char* tip, bool isEnabled, bool isOn) {
-    return toggleButton(id, icon, "", tip, isEnabled, isOn, ImGui::GetFrameHeight());
+bool iconButton(const char* id, Icon icon, const char* tip, Usable usable, bool isOn) {
+    return toggleButton(id, icon, "", tip, usable, isOn, ImGui::GetFrameHeight());
 }
 
-bool toggleButton(const char* id, Icon icon, const char* text, const char* tip, bool isEnabled, bool isOn,
+bool toggleButton(const char* id, Icon icon, const char* text, const char* tip, Usable usable, bool isOn,
                   float width) {
     const float side = ImGui::GetFrameHeight(), size = kIconShare * side;
     ImGui::PushID(id);
     if (isOn) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-    const bool pressed = button("##icon", tip, isEnabled, width);
+    const bool pressed = button("##icon", tip, usable, width);
     if (isOn) ImGui::PopStyleColor();
     ImGui::PopID();
     const ImVec2 corner = ImGui::GetItemRectMin();
     const float margin = 0.5f * (side - size);
-    const ImU32 ink = ImGui::GetColorU32(isEnabled ? ImGuiCol_Text : ImGuiCol_TextDisabled);
+    const ImU32 ink = ImGui::GetColorU32(usable.is ? ImGuiCol_Text : ImGuiCol_TextDisabled);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     drawIcon(list, icon, {corner.x + margin, corner.y + margin}, size, ink);
     if (width > 1.5f * side)

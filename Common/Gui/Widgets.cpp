@@ -231,11 +231,14 @@ float buttonWidth(const char* label) {
     return ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
 }
 
-bool button(const char* label, const char* tip, bool enabled, float width) {
-    if (!enabled) ImGui::BeginDisabled();
+bool button(const char* label, const char* tip, Usable usable, float width) {
+    if (!usable.is) ImGui::BeginDisabled();
     const bool pressed = ImGui::Button(label, {width, 0});
-    if (!enabled) ImGui::EndDisabled();
+    if (!usable.is) ImGui::EndDisabled();
+    const char* const outer = whyDisabled;
+    if (usable.whyNot != nullptr) whyDisabled = usable.whyNot;
     if (!pressed) tooltip(tip); // which would cover what a button makes a picture of
+    whyDisabled = outer;
     return pressed;
 }
 

@@ -77,8 +77,14 @@ class Disabled {
 void besideIfItFits(float width);
 // How wide a button of that label is.
 float buttonWidth(const char* label);
-// A button that is grey where it has nothing to do.
-bool button(const char* label, const char* tip, bool enabled, float width = 0);
+// Whether something can be used, or why not.
+struct Usable {
+    Usable(bool isUsable, const char* reason = nullptr) : is(isUsable), whyNot(isUsable ? nullptr : reason) {}
+    bool is;
+    const char* whyNot; // null: it can be, or it is not said
+};
+// A button that is grey where it has nothing to do; its tooltip says why.
+bool button(const char* label, const char* tip, Usable usable, float width = 0);
 
 // "1.23 M", "456 k"
 std::string withPrefix(double value);

@@ -37,7 +37,7 @@ void drawCameras(Gui& gui) {
     if (gui.camera.camera() != gui.camera.home()) shown += ", moved";
     const Disabled rest(cameras.size() < 2, "the scene has one camera");
     row("Camera", "Those that the scene has; R leads back to the one that is chosen");
-    if (!ImGui::BeginCombo("##camera", shown.c_str())) return;
+    if (!ImGui::BeginCombo("##camera", shown.c_str())) return explainDisabled();
     for (const auto& [name, camera] : cameras) {
         ImGui::PushID(name.c_str());
         const bool isChosen = camera == gui.camera.home();
@@ -86,7 +86,8 @@ void drawCameraPanel(Gui& gui) {
 
     const float space = ImGui::GetStyle().ItemSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - 2 * space) / 3;
-    if (button("Frame all", "Moves back until all of the scene is in sight (Home)", gui.state.scene != nullptr, -1))
+    if (button("Frame all", "Moves back until all of the scene is in sight (Home)",
+               {gui.state.scene != nullptr, "there is no scene yet"}, -1))
         gui.frameAll();
     if (button("Copy pose", "To the clipboard, as JSON (Ctrl+Shift+C)", true, width)) gui.copyPose();
     ImGui::SameLine(0, space);

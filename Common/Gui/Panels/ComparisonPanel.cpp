@@ -19,6 +19,7 @@
 namespace rt::gui {
 namespace {
 
+constexpr const char* kNoneSelected = "no run is selected in the table";
 constexpr float kNarrow = 34, kMinHeight = 8; // of the panel; of table and chart: in heights of the font
 
 using app::RunRecord;
@@ -64,14 +65,16 @@ void drawReferenceMenu(Gui& gui) {
     if (button("Render reference",
                "With these samples per pixel, the present scene, camera and size; those that there are of an earlier "
                "render, by whichever program, count. Stop gives it up.",
-               !gui.state.isReferenceRender && !gui.state.picture.isPreview)) {
+               {!gui.state.isReferenceRender && !gui.state.picture.isPreview,
+                gui.state.isReferenceRender ? "one is being rendered" : "ray tracing is off"})) {
         gui.session.renderReference(gui.referenceSpp);
         ImGui::CloseCurrentPopup();
     }
     ImGui::SetNextItemWidth(14 * em);
     const bool entered = inputText("##referencefile", ".exr, .hdr or .pfm file", gui.referencePath);
     ImGui::SameLine(0, gap);
-    if ((button("Load", "A linear image of the present size", !gui.referencePath.empty()) || entered) &&
+    if ((button("Load", "A linear image of the present size", {!gui.referencePath.empty(), "no file is named"}) ||
+         entered) &&
         !gui.referencePath.empty()) {
         gui.session.loadReference(gui.referencePath);
         ImGui::CloseCurrentPopup();
@@ -176,9 +179,10 @@ void drawChart(Gui& gui, ImVec2 size) {
 }
 
 // What is deleted is gone for both programs: it is asked for twice.
-void drawDeletion(Gui& gui, const char* id, const char* label, const char* tip, const std::vector<RunRecord>& runs) {
+void drawDeletion(Gui& gui, const char* id, const char* label, const char* tip, const std::vector<RunRecord>& runs,
+                  const char* whyNone) {
     besideIfItFits(buttonWidth(label));
-    if (button(label, tip, !runs.empty())) ImGui::OpenPopup(id);
+    if (button(label, tip, {!runs.empty(), whyNone})) ImGui::OpenPopup(id);
     if (!ImGui::BeginPopup(id)) return;
     ImGui::Text("Delete %zu %s from the history of both programs?", runs.size(), runs.size() == 1 ? "run" : "runs");
     if (button("Delete##yes", "They cannot be had back", true)) {
@@ -194,11 +198,14 @@ void drawRunActions(Gui& gui) {
     ImGui::Checkbox("This scene only", &gui.onlyThisScene);
     const std::vector<RunRecord> selected = gui.runs.selected();
     besideIfItFits(buttonWidth("Hide"));
-    if (button("Hide", "The selected runs, until the window closes", !selected.empty())) gui.runs.hideSelected();
+    if (button("Hide", "The selected runs, until the window closes", {!selected.empty(), kNoneSelected}))
+        gui.runs.hideSelected();
     besideIfItFits(buttonWidth("Unhide"));
-    if (button("Unhide", "Brings hidden runs back", gui.runs.hiddenCount() > 0)) gui.runs.showHidden();
-    drawDeletion(gui, "##delete", "Delete", "The selected runs, from the history", selected);
-    drawDeletion(gui, "##clear", "Clear", "All runs that are shown, from the history", gui.runs.shown());
+    if (button("Unhide", "Brings hidden runs back", {gui.runs.hiddenCount() > 0, "no run is hidden"}))
+        gui.runs.showHidden();
+    drawDeletion(gui, "##delete", "Delete", "The selected runs, from the history", selected, kNoneSelected);
+    drawDeletion(gui, "##clear", "Clear", "All runs that are shown, from the history", gui.runs.shown(),
+                 "no run is shown");
     besideIfItFits(buttonWidth("Export CSV"));
     if (button("Export CSV", "All runs, to the folder that pictures are saved to", true)) exportCsv(gui);
     besideIfItFits(buttonWidth("Export PNG"));

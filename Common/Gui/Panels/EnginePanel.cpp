@@ -47,7 +47,7 @@ void drawKind(EngineChoice& engine, const app::SessionState& state, const Device
     std::string shown = app::titleOf(app::kGpuEngines, engine.kind);
     const bool isKnown = state.engine == engine && !state.report.engine.empty();
     if (engine.kind == GpuEngineKind::Auto && isKnown) shown += " (" + state.report.engine + ")";
-    if (!ImGui::BeginCombo("##engine", shown.c_str())) return;
+    if (!ImGui::BeginCombo("##engine", shown.c_str())) return explainDisabled();
     for (const auto& row : app::kGpuEngines) {
         if (!mayHave(row.value, engine, devices)) continue;
         if (ImGui::Selectable(row.title, row.value == engine.kind)) engine.kind = row.value;

@@ -13,7 +13,8 @@ namespace {
 void drawRecent(Gui& gui) {
     row("Recent files", "Scene files that were opened, the latest first");
     const Disabled rest(gui.settings.recent.empty(), "no file was opened yet");
-    if (!ImGui::BeginCombo("##recent", gui.settings.recent.empty() ? "none yet" : "Open again")) return;
+    if (!ImGui::BeginCombo("##recent", gui.settings.recent.empty() ? "none yet" : "Open again"))
+        return explainDisabled();
     for (const std::string& file : std::vector<std::string>(gui.settings.recent)) { // choosing one changes their order
         ImGui::PushID(file.c_str());
         const std::string name = printable(std::filesystem::path(file).filename().string());
@@ -31,7 +32,8 @@ void drawFilePanel(Gui& gui) {
     const float width = (ImGui::GetContentRegionAvail().x - space) / 2;
     if (button("Open a scene", "A scene file or a model (Ctrl+O)", true, width)) gui.browse(BrowseFor::Scene);
     ImGui::SameLine(0, space);
-    if (button("Export the scene", "As a scene file (JSON), as --export-scene does", gui.state.scene != nullptr, width))
+    if (button("Export the scene", "As a scene file (JSON), as --export-scene does",
+               {gui.state.scene != nullptr, "there is no scene yet"}, width))
         gui.exportScene();
     drawRecent(gui);
     row("Save to", "Folder for F12; empty: your pictures folder, else the home folder");
@@ -39,7 +41,7 @@ void drawFilePanel(Gui& gui) {
     combo("Save which", "Of the raw and the denoised picture; a film without halves has the raw one alone",
           app::kSaveChoices, gui.settings.saveChoice);
     drawErrorOf(gui, app::ErrorSource::Save);
-    const bool hasPicture = gui.state.picture.image != nullptr;
+    const Usable hasPicture{gui.state.picture.image != nullptr, "there is no picture yet"};
     if (button("Save PNG and EXR", "F12 or Ctrl+S", hasPicture, width)) gui.saveRequested = true;
     ImGui::SameLine(0, space);
     if (button("Save as", "Ctrl+Shift+S", hasPicture, width)) gui.browse(BrowseFor::Picture);

@@ -113,16 +113,25 @@ void drawHelp(Gui& gui) {
 
 void drawFirstSteps(Gui& gui, const Rect& area) {
     if (!gui.showFirstSteps || gui.errors.unread() != nullptr) return;
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({area.x + em, area.y + area.height - em}, ImGuiCond_Always, {0, 1});
-    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
-                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                                        ImGuiWindowFlags_NoMove;
+    constexpr const char* kSteps[] = {"1  Choose a scene at the left, or by the keys 1 to 9",
+                                      "2  Drag in the picture to look at it from elsewhere; N shows it raw",
+                                      "3  Press F3 to compare this run with others"};
+    const float em = ImGui::GetFontSize(), padding = ImGui::GetStyle().WindowPadding.x;
+    const float margin = std::min(em, 0.05f * area.width), room = std::max(1.0f, area.width - 2 * (margin + padding));
+    float longest = 1;
+    for (const char* step : kSteps) longest = std::max(longest, textWidth(step));
+    ImGui::SetNextWindowPos({area.x + margin, area.y + area.height - margin}, ImGuiCond_Always, {0, 1});
+    ImGui::SetNextWindowSizeConstraints(
+        {1, 1}, {std::max(1.0f, area.width - 2 * margin), std::max(1.0f, area.height - 2 * margin)});
+    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                                        ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoMove;
     if (ImGui::Begin("##first-steps", nullptr, kFlags)) {
+        ImGui::SetWindowFontScale(std::clamp(room / longest, kMinLetters, 1.0f)); // as in the help
+        ImGui::PushTextWrapPos(padding + room);
         ImGui::TextDisabled("Three steps");
-        ImGui::TextUnformatted("1  Choose a scene at the left, or by the keys 1 to 9");
-        ImGui::TextUnformatted("2  Drag in the picture to look at it from elsewhere; N shows it raw");
-        ImGui::TextUnformatted("3  Press F3 to compare this run with others");
+        for (const char* step : kSteps) ImGui::TextUnformatted(step);
+        ImGui::PopTextWrapPos();
         if (ImGui::Button("Got it")) gui.showFirstSteps = false;
         ImGui::SameLine();
         ImGui::TextDisabled("F1 lists all keys");

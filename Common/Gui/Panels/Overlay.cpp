@@ -131,7 +131,8 @@ void drawErrors(Gui& gui) {
     ImGui::SetNextWindowSize({std::min(44 * em, 0.9f * all.x), std::min(24 * em, 0.8f * all.y)}, ImGuiCond_Appearing);
     if (ImGui::Begin("What went wrong", &gui.showErrors,
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
-        if (button("Clear", "Forgets them all", !gui.errors.all().empty())) gui.errors.clear();
+        if (button("Clear", "Forgets them all", {!gui.errors.all().empty(), "nothing went wrong so far"}))
+            gui.errors.clear();
         ImGui::BeginChild("##list");
         if (gui.errors.all().empty()) note("Nothing so far");
         for (auto entry = gui.errors.all().rbegin(); entry != gui.errors.all().rend(); ++entry) {

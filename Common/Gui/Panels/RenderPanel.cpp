@@ -118,7 +118,9 @@ void drawSamples(Gui& gui) {
     markNextRow(depth != app::RenderSettings().maxDepth);
     inputCount("Max path depth", "Vertices of a path after the camera", depth, 1, 4096, 1);
     row("More samples", nullptr);
-    if (button("+100 spp", "Goes on from the samples there are", request.accumulate && spp <= kMax - kMore)) {
+    if (button("+100 spp", "Goes on from the samples there are",
+               {request.accumulate && spp <= kMax - kMore,
+                request.accumulate ? "there are no more samples" : "frames are images of their own"})) {
         spp += kMore;
         gui.session.goOn();
     }
@@ -150,7 +152,8 @@ void drawDefaults(Gui& gui) {
     app::RenderRequest defaults;
     defaults.settings.features = gui.settings.request.settings.features;
     const bool isChanged = gui.settings.request != defaults || gui.settings.engine != app::EngineChoice();
-    if (button("Restore defaults", "Of all settings of this panel; a dot marks those that differ", isChanged)) {
+    if (button("Restore defaults", "Of all settings of this panel; a dot marks those that differ",
+               {isChanged, "all are at their defaults"})) {
         gui.settings.request = defaults;
         gui.settings.engine = app::EngineChoice();
     }

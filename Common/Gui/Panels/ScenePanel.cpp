@@ -65,7 +65,8 @@ void drawScenePanel(Gui& gui) {
     if (button("Open file", "A scene file or a model; files can also be dropped on the window (Ctrl+O)", true, width))
         gui.browse(BrowseFor::Scene);
     ImGui::SameLine(0, space);
-    if (button("Reload", "Reads the scene again", !gui.state.source.empty(), width)) gui.openScene(gui.state.source);
+    if (button("Reload", "Reads the scene again", {!gui.state.source.empty(), "there is no scene yet"}, width))
+        gui.openScene(gui.state.source);
     drawErrorOf(gui, app::ErrorSource::Scene);
     {
         const Disabled rest(builtin != nullptr, "the scene is built in, and no file");

@@ -13,6 +13,7 @@ namespace {
 
 using app::Activity;
 
+constexpr const char* kNoPicture = "there is no picture yet";
 constexpr int kRightIcons = 5; // comparison, statistics, panels, help, errors
 
 float gap() {
@@ -67,11 +68,12 @@ void drawRenderButtons(Gui& gui, bool isNarrow) {
     beside();
     const bool canStop = rendering || paused || !gui.state.stage.empty();
     if (iconButton("stop", Icon::Stop,
-                   "Ends the render, of which stays what there is, and gives up what is being loaded", canStop))
+                   "Ends the render, of which stays what there is, and gives up what is being loaded",
+                   {canStop, "nothing is rendered or loaded"}))
         gui.session.stop();
     beside();
     if (iconButton("restart", Icon::Restart, "Discards the samples and renders from the beginning (Ctrl+R)",
-                   !isPreview))
+                   {!isPreview, "ray tracing is off"}))
         gui.session.reset();
 }
 
@@ -87,11 +89,14 @@ float modesWidth() {
     return width;
 }
 
+const char* whyNot(const Gui& gui, const ViewModeRow& mode) {
+    return gui.state.picture.isPreview ? "ray tracing is off" : mode.missing;
+}
+
 void choose(Gui& gui, const ViewModeRow& mode) {
     const bool canBe = isAvailable(gui, mode.mode), isOn = gui.viewRequest.mode == mode.mode;
     if (isOn) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-    const std::string tip = std::string(mode.tip) + (canBe ? "" : std::string("\n") + mode.missing);
-    if (button(mode.name, tip.c_str(), canBe)) gui.viewRequest.mode = mode.mode;
+    if (button(mode.name, mode.tip, {canBe, whyNot(gui, mode)})) gui.viewRequest.mode = mode.mode;
     if (isOn) ImGui::PopStyleColor();
 }
 
@@ -103,7 +108,7 @@ void drawModeMenu(Gui& gui, const char* label, const char* tip, float width, boo
         const bool canBe = isAvailable(gui, mode.mode);
         const auto flags = canBe ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
         if (ImGui::Selectable(mode.name, mode.mode == gui.viewRequest.mode, flags)) gui.viewRequest.mode = mode.mode;
-        tooltip((std::string(mode.tip) + (canBe ? "" : std::string("\n") + mode.missing)).c_str());
+        tooltip((mode.tip + (canBe ? "" : std::string("\nNot now: ") + whyNot(gui, mode))).c_str());
     }
     ImGui::EndCombo();
 }
@@ -150,7 +155,7 @@ void drawRight(Gui& gui) {
     if (iconButton("errors", Icon::Warning, nullptr, !gui.errors.all().empty(), gui.showErrors))
         gui.showErrors = !gui.showErrors;
     if (isUnread) ImGui::PopStyleColor();
-    tooltip("What went wrong so far"); // in the colour of all others
+    tooltip(gui.errors.all().empty() ? "What went wrong: nothing so far" : "What went wrong so far"); // as all others
 }
 
 } // namespace
@@ -176,12 +181,12 @@ void drawToolbar(Gui& gui) {
     if (iconButton("split", Icon::Split,
                    gui.pinned ? "Unpins the picture that is compared with (B)"
                               : "Pins the picture for A/B comparison with the next one (B)",
-                   gui.pinned || gui.state.picture.image, static_cast<bool>(gui.pinned))) {
+                   {gui.pinned || gui.state.picture.image, kNoPicture}, static_cast<bool>(gui.pinned))) {
         gui.hold();
     }
     beside();
     if (iconButton("save", Icon::Save, "Saves the picture as PNG and EXR (F12, Ctrl+S); Ctrl+Shift+S asks where",
-                   gui.state.picture.image != nullptr)) {
+                   {gui.state.picture.image != nullptr, kNoPicture})) {
         gui.saveRequested = true;
     }
     beside();

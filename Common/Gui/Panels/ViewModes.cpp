@@ -18,9 +18,9 @@ constexpr ViewModeRow kModes[] = {
     {"Depth", ViewMode::Depth, "Distance to the first surface; near is bright", ""},
     {"Noise", ViewMode::Noise, "Standard error of each pixel relative to its value, after 16 samples", ""},
     {"Error", ViewMode::Error, "Difference from the reference relative to it",
-     "It needs a reference: see Comparison (F3)"},
+     "it needs a reference: see Comparison (F3)"},
     {"Heat map", ViewMode::Heat, "What each pixel costs, in rays or time, on a logarithmic scale (H)",
-     "This engine does not know what a pixel costs"},
+     "this engine does not know what a pixel costs"},
     {"Half A", ViewMode::HalfA,
      "The picture of one half of the samples, denoised if that is on. Pin it (B) and look at the other half: where "
      "both "

@@ -47,6 +47,7 @@ void drawSplit(Gui& gui) {
     combo("Compare by", "How the pinned picture A and the picture B are shown (V)", kCompareBys, gui.compareBy);
     row("A/B split", "Share of the pinned picture (B pins it)");
     ImGui::SliderFloat("##split", &gui.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    explainDisabled();
 }
 
 } // namespace
