@@ -2,10 +2,15 @@
 
 #include <UiFont.h>
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace rt::gui {
 namespace {
+
+constexpr float kFontSize = 15; // at scale 1
+// Latin, dashes, arrows, mathematical signs.
+constexpr ImWchar kGlyphs[] = {0x20, 0xff, 0x2010, 0x2027, 0x2190, 0x2193, 0x2212, 0x2212, 0x2248, 0x2248, 0};
 
 std::vector<FontFile> findFonts() {
     namespace fs = std::filesystem;
@@ -38,6 +43,23 @@ std::vector<FontFile> findFonts() {
 const std::vector<FontFile>& availableFonts() {
     static const std::vector<FontFile> fonts = findFonts();
     return fonts;
+}
+
+void addFont(ImFontAtlas& atlas, const FontFile& font, float scale) {
+    const float size = std::round(kFontSize * scale);
+    const ImFont* made = nullptr;
+    if (!font.bytes.empty()) {
+        ImFontConfig config;
+        config.FontDataOwnedByAtlas = false; // which therefore only reads it
+        made = atlas.AddFontFromMemoryTTF(const_cast<unsigned char*>(font.bytes.data()),
+                                          static_cast<int>(font.bytes.size()), size, &config, kGlyphs);
+    } else if (!font.file.empty()) {
+        made = atlas.AddFontFromFileTTF(font.file.string().c_str(), size, nullptr, kGlyphs);
+    }
+    if (made != nullptr) return;
+    ImFontConfig config;
+    config.SizePixels = 13 * std::max(1.0f, std::round(scale));
+    atlas.AddFontDefault(&config);
 }
 
 } // namespace rt::gui

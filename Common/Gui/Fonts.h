@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <imgui.h>
+
 namespace rt::gui {
 
 struct FontFile {
@@ -15,5 +17,8 @@ struct FontFile {
 // First the program's own, proportional but for its figures, so that numbers stand still while they change; then
 // those of this machine; last ImGui's.
 const std::vector<FontFile>& availableFonts();
+
+// Its letters at this scale, or ImGui's where they cannot be had.
+void addFont(ImFontAtlas& atlas, const FontFile& font, float scale);
 
 } // namespace rt::gui

@@ -1,7 +1,6 @@
 #include "Common/Gui/ImGuiLayer.h"
 
 #include <algorithm>
-#include <cmath>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -22,10 +21,6 @@
 
 namespace rt::gui {
 namespace {
-
-constexpr float kFontSize = 15; // at scale 1
-// Latin, dashes, arrows, mathematical signs.
-constexpr ImWchar kGlyphs[] = {0x20, 0xff, 0x2010, 0x2027, 0x2190, 0x2193, 0x2212, 0x2212, 0x2248, 0x2248, 0};
 
 void checkImGui(VkResult result) {
     vulkan::check(result, "Drawing the interface");
@@ -139,21 +134,7 @@ void ImGuiLayer::applyStyle() {
     const float pixels = style_.scale * style_.density;
     io.FontGlobalScale = 1 / style_.density;
 #endif
-    const float size = std::round(kFontSize * pixels);
-    const ImFont* made = nullptr;
-    if (!font.bytes.empty()) {
-        ImFontConfig config;
-        config.FontDataOwnedByAtlas = false; // which therefore only reads it
-        made = io.Fonts->AddFontFromMemoryTTF(const_cast<unsigned char*>(font.bytes.data()),
-                                              static_cast<int>(font.bytes.size()), size, &config, kGlyphs);
-    } else if (!font.file.empty()) {
-        made = io.Fonts->AddFontFromFileTTF(font.file.string().c_str(), size, nullptr, kGlyphs);
-    }
-    if (made == nullptr) {
-        ImFontConfig config;
-        config.SizePixels = 13 * std::max(1.0f, std::round(pixels));
-        io.Fonts->AddFontDefault(&config);
-    }
+    addFont(*io.Fonts, font, pixels);
     startRenderer();
 }
 

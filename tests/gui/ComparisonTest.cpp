@@ -1,5 +1,7 @@
 // The comparison in both windows, by the mouse, and what there is to see of it.
 #include <algorithm>
+#include <cstddef>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -41,11 +43,11 @@ app::RunRecord run(const std::string& program, const std::string& estimator, con
     return r;
 }
 
+// Of the records that the tests make.
+constexpr const char *kCpuRun = "CPU multi, 2 threads", *kGpuRun = "GPU multi, 2 threads";
+
 class ComparisonTest : public WindowTest {
   protected:
-    static constexpr int kFirstRow = 726, kRow = 19; // of the table
-    static constexpr int kBeside = 386;              // between its edge and its text
-
     // The runs of the file that a window opens with, the newest last.
     void keep(const std::vector<app::RunRecord>& runs) const {
         fs::create_directories(historyFile().parent_path());
@@ -80,25 +82,57 @@ class ComparisonTest : public WindowTest {
             return condition();
         });
     }
-    void clickRow(int row) {
-        click(kBeside, kFirstRow + row * kRow);
-        act("mousemove 1000 300"); // nothing is pointed at
-    }
-    // Where no text of the row is.
-    std::uint32_t rowColor(int row) const { return screenshot().at(kBeside, kFirstRow + row * kRow); }
-    bool isRowThere(int row) const {
+    // The texts of the table's rows, from the top: below the title of their column.
+    std::vector<Place> rows() const {
         const Screenshot shot = screenshot();
-        std::set<std::uint32_t> colors;
-        const int y = kFirstRow + row * kRow;
-        for (int x = 400; x < 520; ++x)
-            for (int dy = -5; dy <= 5; ++dy) colors.insert(shot.at(x, y + dy));
-        return colors.size() > 1; // letters
+        const std::vector<Place> titles = findText(shot, "Engine", {kSide, 0});
+        if (titles.empty()) return {};
+        const Place below{titles.front().left - 4, titles.front().bottom, titles.front().left + 200, kHeight};
+        std::vector<Place> places;
+        for (const char* text : {kCpuRun, kGpuRun}) {
+            const std::vector<Place> found = findText(shot, text, below);
+            places.insert(places.end(), found.begin(), found.end());
+        }
+        std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.top < b.top; });
+        const auto isSameRow = [](const Place& a, const Place& b) {
+            return b.top - a.top < 5;
+        }; // the two are much alike
+        places.erase(std::unique(places.begin(), places.end(), isSameRow), places.end());
+        return places;
     }
-    bool isAt(int x, int y, const ImVec4& color) const { return screenshot().at(x, y) == bytesOf(color); }
-    static ImVec4 popupColor() {
-        ImGuiStyle style;
-        gui::applyTheme(style, app::ColorMode::Dark);
-        return style.Colors[ImGuiCol_PopupBg];
+    bool isRowThere(std::size_t row) const { return rows().size() > row; }
+    // Between its mark and its text, where nothing is drawn.
+    static int besideText(const Place& text) { return text.left - 3; }
+    void clickRow(std::size_t row, bool isAdded = false) {
+        const std::vector<Place> places = rows();
+        if (places.size() <= row) return;
+        if (isAdded) act("keydown ctrl");
+        click(besideText(places[row]), places[row].y());
+        if (isAdded) act("keyup ctrl");
+        pointAtNothing();
+    }
+    std::uint32_t rowColor(std::size_t row) const {
+        const std::vector<Place> places = rows();
+        return places.size() > row ? screenshot().at(besideText(places[row]), places[row].y()) : 0;
+    }
+    // The bar at the left of a card of that title.
+    bool hasCard(const std::string& title, const ImVec4& color) const {
+        const Screenshot shot = screenshot();
+        const std::vector<Place> places = findText(shot, title, {kSide, 0});
+        return std::any_of(places.begin(), places.end(),
+                           [&](const Place& text) { return shot.at(text.left - 8, text.y()) == bytesOf(color); });
+    }
+    // Selects or unselects a row, which has another colour then, when nothing points at it any more.
+    bool select(std::size_t row, bool isAdded = false) {
+        const std::uint32_t plain = rowColor(row);
+        return eventually(
+            [&] {
+                pause(700);
+                if (rowColor(row) == plain) clickRow(row, isAdded);
+                pause(700);
+                return rowColor(row) != plain;
+            },
+            kSeen);
     }
 };
 INSTANTIATE_TEST_SUITE_P(, ComparisonTest, kBothPrograms, nameOfProgram);
@@ -111,7 +145,7 @@ class NightlyComparisonTest : public ComparisonTest {};
 INSTANTIATE_TEST_SUITE_P(, NightlyComparisonTest, kBothPrograms, nameOfProgram);
 
 // Two runs of equal work and one of another.
-TEST_P(NightlyComparisonTest, RunsAreShownMarkedSelectedHiddenAndDeleted) {
+TEST_P(ComparisonTest, RunsAreShownMarkedSelectedHiddenAndDeleted) {
     const std::string cpu = "ray-tracing-cpu", gpu = "ray-tracing-gpu";
     keep({run(cpu, "bsdf", "2026-01-01T00:00:01Z"), run(cpu, "mis", "2026-01-01T00:00:02Z"),
           run(gpu, "mis", "2026-01-01T00:00:03Z")});
@@ -119,43 +153,67 @@ TEST_P(NightlyComparisonTest, RunsAreShownMarkedSelectedHiddenAndDeleted) {
     ASSERT_FALSE(HasFatalFailure());
     const ImVec4 cpuColor = gui::engineColor(false, app::ColorMode::Dark);
     const ImVec4 gpuColor = gui::engineColor(true, app::ColorMode::Dark);
-    const bool isGpu = GetParam() == gpu;
-    EXPECT_TRUE(eventually([&] { return isAt(394, 54, isGpu ? gpuColor : cpuColor); })); // the chip of the picture
     key("F3");
-    EXPECT_TRUE(eventually([&] { return isAt(384, 591, cpuColor) && isAt(616, 591, gpuColor); })); // the cards
-    ASSERT_TRUE(eventually([&] { return isRowThere(2); }));
-    const std::uint32_t plain = rowColor(2);
-    EXPECT_EQ(rowColor(0), plain); // it is not of what is in view
-    const auto isSelected = [&] {
-        pause(700); // a row that was pointed at is not stressed any more
-        return rowColor(2) != plain;
-    };
-    const auto select = [&] { // again where the machine was too busy to see it
-        return eventually([&] {
-            if (!isSelected()) clickRow(2);
-            return isSelected();
-        });
-    };
-    EXPECT_TRUE(select());
-    EXPECT_TRUE(clickUntil(541, 659, [&] { return !isRowThere(2); })); // Hide
+    EXPECT_TRUE(eventually([&] { return hasCard("CPU", cpuColor) && hasCard("GPU", gpuColor); }, kSeen));
+    ASSERT_TRUE(eventually([&] { return isRowThere(2); }, kSeen));
+    pointAtNothing();
+    EXPECT_EQ(rowColor(0), rowColor(2)); // neither is of what is in view
+    EXPECT_TRUE(select(2));
+    EXPECT_TRUE(clickText("Hide", [&] { return !isRowThere(2); }));
     EXPECT_TRUE(isRowThere(1));
-    EXPECT_TRUE(clickUntil(602, 659, [&] { return isRowThere(2); })); // Unhide
+    EXPECT_TRUE(clickText("Unhide", [&] { return isRowThere(2); }));
     EXPECT_EQ(estimatorsInHistory(), (std::multiset<std::string>{"bsdf", "mis", "mis"}));
-    EXPECT_TRUE(select());
-    const auto isAsked = [this] { return isAt(900, 701, popupColor()); };
-    EXPECT_TRUE(clickUntil(671, 659, isAsked)); // Delete
+    EXPECT_TRUE(select(2));
+    const std::string question = "Delete 1 run from the history of both programs?";
+    EXPECT_TRUE(clickText("Delete", [&] { return isShown(question); }));
     EXPECT_EQ(estimatorsInHistory().size(), 3u);
-    EXPECT_TRUE(clickUntil(707, 703, [&] { // yes
-        return estimatorsInHistory() == std::multiset<std::string>{"mis", "mis"};
-    }));
-    EXPECT_TRUE(clickUntil(734, 659, isAsked));                                       // Clear
-    EXPECT_TRUE(clickUntil(770, 703, [&] { return estimatorsInHistory().empty(); })); // yes
-    EXPECT_TRUE(eventually([&] { return !isRowThere(0); }));
+    const auto confirm = [&](const std::string& asked, const std::function<bool()>& isDone) {
+        return eventually(
+            [&] { // the button below the question, which goes with it
+                const std::vector<Place> text = placesOf(asked);
+                const Place below{text.empty() ? 0 : text[0].left - 10, text.empty() ? 0 : text[0].bottom,
+                                  text.empty() ? 0 : text[0].right, text.empty() ? 0 : text[0].bottom + 40};
+                if (!isDone() && !text.empty()) clickText("Delete", isDone, below);
+                return isDone();
+            },
+            kSeen);
+    };
+    EXPECT_TRUE(confirm(question, [&] { return estimatorsInHistory() == std::multiset<std::string>{"mis", "mis"}; }));
+    const std::string all = "Delete 2 runs from the history of both programs?";
+    EXPECT_TRUE(clickText("Clear", [&] { return isShown(all); }));
+    EXPECT_TRUE(confirm(all, [&] { return estimatorsInHistory().empty(); }));
+    EXPECT_TRUE(eventually([&] { return !isRowThere(0); }, kSeen));
+    expectCleanEnd();
+}
+
+// Whatever they are of; without a selection the cards are about what is in view, of which there is no run.
+TEST_P(SharedComparisonTest, TwoSelectedRowsAreCompared) {
+    const std::string cpu = "ray-tracing-cpu";
+    keep({run(cpu, "bsdf", "2026-01-01T00:00:01Z"), run(cpu, "mixture", "2026-01-01T00:00:02Z"),
+          run("ray-tracing-gpu", "mis", "2026-01-01T00:00:03Z")});
+    startAndPause();
+    ASSERT_FALSE(HasFatalFailure());
+    key("F3");
+    ASSERT_TRUE(eventually([&] { return isRowThere(2); }, kSeen));
+    EXPECT_TRUE(appears("No run of this work yet"));
+    EXPECT_TRUE(select(1));
+    EXPECT_TRUE(select(2, true));
+    EXPECT_TRUE(appears("Second against first"));
+    EXPECT_FALSE(isShown("No run of this work yet"));
+    key("b"); // pins
+    pause(700);
+    EXPECT_TRUE(eventually( // unpins, which clears the comparison
+        [&] {
+            if (isShown("Second against first")) key("b");
+            pause(700);
+            return !isShown("Second against first");
+        },
+        kSeen));
     expectCleanEnd();
 }
 
 // The points of two runs are far from each other, so that each is found by its colour.
-TEST_P(NightlyComparisonTest, TableAndChartAreLinked) {
+TEST_P(SharedComparisonTest, TableAndChartAreLinked) {
     app::RunRecord cpuRun = run("ray-tracing-cpu", "mis", "2026-01-01T00:00:01Z");
     app::RunRecord gpuRun = run("ray-tracing-gpu", "mis", "2026-01-01T00:00:02Z");
     cpuRun.renderSeconds = 7;
@@ -166,88 +224,95 @@ TEST_P(NightlyComparisonTest, TableAndChartAreLinked) {
     startAndPause();
     ASSERT_FALSE(HasFatalFailure());
     key("F3");
-    ASSERT_TRUE(eventually([&] { return isRowThere(1); }));
-    constexpr int kCpuRow = 1; // the newest is the first
+    ASSERT_TRUE(eventually([&] { return isRowThere(1); }, kSeen));
+    constexpr std::size_t kCpuRow = 1; // the newest is the first
     struct Point {
         int x = 0, y = 0, size = 0; // its middle, and the number of its pixels
     };
-    const auto pointOfCpu = [&] {
+    const auto pointOfCpu = [&] { // left of "seconds", which ends the plot, and below the legend's "CPU"
         const std::uint32_t color = bytesOf(gui::engineColor(false, app::ColorMode::Dark));
         const Screenshot shot = screenshot();
+        const std::vector<Place> axis = findText(shot, "seconds", {kWidth / 2, kHeight / 2});
         Point point;
-        for (int y = 724; y < 800; ++y) // below the legend
-            for (int x = 1005; x < 1260; ++x) {
+        if (axis.empty()) return point;
+        const std::vector<Place> legend = findText(shot, "CPU", {kWidth / 2, kHeight / 2, kWidth, axis.back().top});
+        if (legend.empty()) return point;
+        for (int y = legend.back().bottom; y < axis.back().top; ++y)
+            for (int x = legend.back().left - 40; x < axis.back().right; ++x) {
                 if (shot.at(x, y) != color) continue;
                 point.x += x, point.y += y, ++point.size;
             }
         if (point.size > 0) point.x /= point.size, point.y /= point.size;
         return point;
     };
-    act("mousemove 1000 300"); // nothing is pointed at
-    ASSERT_TRUE(eventually([&] { return pointOfCpu().size > 0; }));
+    pointAtNothing();
+    ASSERT_TRUE(eventually([&] { return pointOfCpu().size > 0; }, kSeen));
     pause(500);
     const Point plain = pointOfCpu();
     const std::uint32_t row = rowColor(kCpuRow);
     act("mousemove " + std::to_string(plain.x) + " " + std::to_string(plain.y));
-    EXPECT_TRUE(eventually([&] { return rowColor(kCpuRow) != row; }));
-    act("mousemove 1000 300");
-    EXPECT_TRUE(eventually([&] { return rowColor(kCpuRow) == row; }));
-    act("mousemove " + std::to_string(kBeside) + " " + std::to_string(kFirstRow + kCpuRow * kRow));
-    EXPECT_TRUE(eventually([&] { return pointOfCpu().size > 1.3 * plain.size; }));
-    act("mousemove 1000 300");
-    EXPECT_TRUE(eventually([&] { return pointOfCpu().size == plain.size; }));
-    EXPECT_TRUE(eventually([&] { // again where the machine was too busy to see it
-        click(plain.x, plain.y); // selects it
-        pause(700);
-        act("mousemove 1000 300");
-        pause(700);
-        return rowColor(kCpuRow) != row && pointOfCpu().size > 1.3 * plain.size;
-    }));
+    EXPECT_TRUE(eventually([&] { return rowColor(kCpuRow) != row; }, kSeen));
+    pointAtNothing();
+    EXPECT_TRUE(eventually([&] { return rowColor(kCpuRow) == row; }, kSeen));
+    const std::vector<Place> places = rows();
+    ASSERT_GT(places.size(), kCpuRow);
+    act("mousemove " + std::to_string(besideText(places[kCpuRow])) + " " + std::to_string(places[kCpuRow].y()));
+    EXPECT_TRUE(eventually([&] { return pointOfCpu().size > 1.3 * plain.size; }, kSeen));
+    pointAtNothing();
+    EXPECT_TRUE(eventually([&] { return pointOfCpu().size == plain.size; }, kSeen));
+    EXPECT_TRUE(eventually( // again where the machine was too busy to see it
+        [&] {
+            click(plain.x, plain.y); // selects it
+            pause(700);
+            pointAtNothing();
+            pause(700);
+            return rowColor(kCpuRow) != row && pointOfCpu().size > 1.3 * plain.size;
+        },
+        kSeen));
     expectCleanEnd();
 }
 
-// By a right click on their titles; the last of the menu's rows stands at the window's lower end.
+// By a right click on their titles.
 TEST_P(SharedComparisonTest, ColumnsCanBeChosen) {
-    constexpr int kColumns = 9, kTime = 1, kLastItem = 840, kItem = 21;
     keep(
         {run("ray-tracing-cpu", "mis", "2026-01-01T00:00:01Z"), run("ray-tracing-gpu", "mis", "2026-01-01T00:00:02Z")});
     startAndPause();
     ASSERT_FALSE(HasFatalFailure());
     key("F3");
-    ASSERT_TRUE(eventually([&] { return isRowThere(1); }));
-    const auto titles = [this] {
-        const Screenshot shot = screenshot();
-        std::vector<std::uint32_t> colors;
-        for (int y = 701; y < 714; ++y)
-            for (int x = 536; x < 940; ++x) colors.push_back(shot.at(x, y));
-        return colors;
-    };
-    const auto isMenuThere = [this] { return isAt(690, 852, popupColor()); };
+    ASSERT_TRUE(eventually([&] { return isRowThere(1); }, kSeen));
+    const std::vector<Place> titles = placesOf("Engine", {kSide, 0});
+    ASSERT_FALSE(titles.empty());
+    const Place engine = titles.front(), line{engine.left, engine.top - 2, kWidth, engine.bottom + 2};
+    const auto isMenuThere = [this] { return isShown("Size column to fit"); };
     const auto toggleTime = [&] { // again where the machine was too busy to see it
-        act("mousemove 600 707 sleep 0.5 mousedown 3 sleep 0.2 mouseup 3");
-        pause(700);
-        if (isMenuThere()) click(660, kLastItem - (kColumns - 1 - kTime) * kItem);
-        pause(700);
+        act("mousemove " + std::to_string(engine.x()) + " " + std::to_string(engine.y()) +
+            " sleep 0.5 mousedown 3 sleep 0.2 mouseup 3");
+        for (int i = 0; i < 20 && !isMenuThere(); ++i) pause(100);
+        for (const Place& time : placesOf("Time", {kSide, 0}))
+            if (isMenuThere() && std::abs(time.y() - engine.y()) > 8) click(time.x(), time.y());
         key("Escape");
-        act("mousemove 1000 300");
+        pointAtNothing();
         pause(700);
     };
-    act("mousemove 1000 300");
-    pause(500);
-    const auto all = titles();
-    EXPECT_TRUE(eventually([&] {
-        toggleTime();
-        return !isMenuThere() && titles() != all;
-    }));
-    EXPECT_TRUE(eventually([&] {
-        toggleTime();
-        return !isMenuThere() && titles() == all;
-    }));
+    EXPECT_TRUE(isShown("Time", line));
+    EXPECT_TRUE(eventually(
+        [&] {
+            toggleTime();
+            return !isMenuThere() && !isShown("Time", line);
+        },
+        kSeen));
+    EXPECT_TRUE(eventually(
+        [&] {
+            toggleTime();
+            return !isMenuThere() && isShown("Time", line);
+        },
+        kSeen));
     expectCleanEnd();
 }
 
 TEST_P(ComparisonTest, TheOtherEngineRendersTheSameAtOneClick) {
-    constexpr int kLine = 557, kRun = 900, kCancel = 1030; // of the button, which gives way to progress and Cancel
+    const bool isCpu = std::string(GetParam()) == "ray-tracing-cpu";
+    const std::string label = std::string("Run on the other engine (") + (isCpu ? "GPU)" : "CPU)");
     start({"--spp", "1000000"});
     ASSERT_FALSE(HasFatalFailure());
     key("F3");
@@ -256,24 +321,22 @@ TEST_P(ComparisonTest, TheOtherEngineRendersTheSameAtOneClick) {
         pause(500);
         return !fs::is_empty(folder_ / "pictures");
     })) << log();
-    pause(1500);                                                            // what the other one is to do takes as long
-    const auto colorOfRun = [this] { return screenshot().at(851, kLine); }; // left of its text
-    const std::uint32_t ready = colorOfRun();
-    const auto isReady = [&] { return colorOfRun() == ready; };
-    EXPECT_TRUE(clickUntil(kRun, kLine, [&] { return !isReady(); }));
-    EXPECT_TRUE(clickUntil(kCancel, kLine, isReady));                     // it has waited for this render to end
+    pause(1500); // what the other one is to do takes as long
+    const auto isReady = [&] { return isShown(label); };
+    EXPECT_TRUE(clickText(label, [&] { return isShown("Cancel"); }));
+    EXPECT_TRUE(clickText("Cancel", isReady));                            // it has waited for this render to end
     const auto colorOfStop = [this] { return screenshot().at(176, 16); }; // of its icon, which fades
     const std::uint32_t rendering = colorOfStop();
     EXPECT_TRUE(clickUntil(176, 16, [&] { return colorOfStop() != rendering; }));
     EXPECT_FALSE(hasChild());
-    if (std::string(GetParam()) == "ray-tracing-cpu") { // where software traces for the GPU, the CPU ends at once
-        EXPECT_TRUE(clickUntil(kRun, kLine, [&] { return hasChild(); })) << log();
-        EXPECT_TRUE(clickUntil(kCancel, kLine, [&] { return !hasChild(); }));
+    if (isCpu) { // where software traces for the GPU, the CPU ends at once
+        EXPECT_TRUE(clickText(label, [&] { return hasChild(); })) << log();
+        EXPECT_TRUE(clickText("Cancel", [&] { return !hasChild(); }));
     }
     EXPECT_EQ(runsOfOther(), 0u);
     const std::uint32_t before = screenshot().at(826, 300);
     EXPECT_TRUE(eventually([&] {
-        if (runsOfOther() == 0 && !hasChild()) click(kRun, kLine); // again where the machine was too busy to see it
+        if (runsOfOther() == 0 && !hasChild()) clickText(label, [&] { return !isReady(); });
         return runsOfOther() == 1;
     })) << log();
     // The pictures are divided by a white line.
@@ -299,8 +362,8 @@ TEST_P(NightlyComparisonTest, AReferenceOfOneProgramIsFoundByTheOther) {
     start();
     ASSERT_FALSE(HasFatalFailure());
     key("F3");
-    EXPECT_TRUE(clickUntil(1117, 557, [&] { return isAt(1230, 581, popupColor()); })) << log(); // Reference...
-    click(1123, 580);                                                                           // Render reference
+    EXPECT_TRUE(clickText("Reference...", [&] { return isShown("Render reference"); })) << log();
+    EXPECT_TRUE(clickText("Render reference", [&] { return !isShown("Render reference"); })) << log();
     EXPECT_TRUE(eventually([&] { return measured(GetParam()); })) << log(); // the picture's film has begun anew
     expectCleanEnd();
     EXPECT_FALSE(fs::is_empty(folder_ / "cache" / "ray-tracing" / "references"));

@@ -1,8 +1,10 @@
 // A test of either program with its window.
 #pragma once
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/gui/Desktop.h"
+#include "tests/gui/ScreenText.h"
 
 namespace rt::test {
 
@@ -17,6 +20,9 @@ constexpr std::uint32_t kWindowColor = 0x1b1c20; // of the dark theme
 
 class WindowTest : public Desktop, public testing::WithParamInterface<const char*> {
   protected:
+    static constexpr std::chrono::seconds kSeen{90}; // in which all that is drawn is seen, however busy the machine is
+    static constexpr int kSide = 372;                // where the panels at the side end
+
     // By an engine that is named: `auto` would let a software driver compile every engine first.
     void start(std::vector<std::string> arguments = {}) {
         const bool isNamed = std::find(arguments.begin(), arguments.end(), "--engine") != arguments.end();
@@ -33,6 +39,29 @@ class WindowTest : public Desktop, public testing::WithParamInterface<const char
         act("mousemove " + std::to_string(x) + " " + std::to_string(y) +
             " sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 sleep 0.3");
     }
+    // Where a text of the interface stands, from the top; at scale 1.
+    std::vector<Place> placesOf(const std::string& text, const Place& within = {}) const {
+        return findText(screenshot(), text, within);
+    }
+    bool isShown(const std::string& text, const Place& within = {}) const { return !placesOf(text, within).empty(); }
+    bool appears(const std::string& text, const Place& within = {}) {
+        return eventually([&] { return isShown(text, within); }, kSeen);
+    }
+    // Clicks the first place of a text until the condition holds: again where the machine was too busy to see it.
+    bool clickText(const std::string& text, const std::function<bool()>& condition, const Place& within = {}) {
+        return eventually(
+            [&] {
+                if (condition()) return true;
+                const std::vector<Place> places = placesOf(text, within);
+                if (places.empty()) return false;
+                click(places.front().x(), places.front().y());
+                pointAtNothing();
+                for (int i = 0; i < 15 && !condition(); ++i) pause(100);
+                return condition();
+            },
+            kSeen);
+    }
+    void pointAtNothing() { act("mousemove 1000 300"); } // the picture, whose pixels have no tooltips
     nlohmann::json settings() const {
         std::ifstream in(folder_ / "config" / "ray-tracing" / (std::string(GetParam()) + ".json"));
         const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
