@@ -1,5 +1,6 @@
 // What the comparison says of a run.
 #include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -29,6 +30,31 @@ TEST(RunTexts, AReferenceThatIsTooNoisyIsTold) {
     EXPECT_EQ(whatErrorKindMeans(run).find("too noisy"), std::string::npos);
     run.referenceError = 0.003;
     EXPECT_NE(whatErrorKindMeans(run).find("too noisy"), std::string::npos);
+}
+
+TEST(RunTexts, TheHeadlineSaysMediansSpreadAndWhatIsNotToldApart) {
+    app::RunRecord cpu, gpu;
+    cpu.app = "ray-tracing-cpu";
+    gpu.app = "ray-tracing-gpu";
+    cpu.engine = "multi";
+    gpu.engine = "compute";
+    gpu.isSoftware = true;
+    app::RepeatedComparison repeats;
+    const auto headline = [&] { return headlineOf({&cpu, &gpu}, repeats); };
+    EXPECT_NE(headline().find("not known"), std::string::npos);
+    repeats.ratio = 0.5;
+    repeats.first = {1, 2e6, 2e6, 2e6};
+    repeats.second = {2, 1e6, 1e6, 1e6};
+    EXPECT_EQ(headline(),
+              "GPU compute (software) is 2\u00d7 slower than CPU multi (samples/s): 1 and 2 runs; three of "
+              "each tell how far repeated runs differ");
+    repeats.first = {3, 2e6, 1.9e6, 2.1e6};
+    repeats.second = {4, 1e6, 0.95e6, 1e6};
+    EXPECT_EQ(headline(),
+              "GPU compute (software) is 2\u00d7 slower than CPU multi (samples/s): medians of 3 and 4 runs, "
+              "which spread over 10 % and 5 %");
+    repeats.second.maximum = 1.95e6;
+    EXPECT_EQ(headline().find("CPU multi and GPU compute (software) are not told apart (samples/s): medians of"), 0u);
 }
 
 TEST(RunTexts, EachEstimatorHasAMarkOfItsOwn) {

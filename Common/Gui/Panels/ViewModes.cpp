@@ -8,8 +8,8 @@ namespace {
 
 using app::ViewMode;
 
-constexpr const char* kNoHalves = "This film has no two halves of its samples: turn the denoiser on (N)";
-constexpr const char* kNotDenoised = "It needs the denoiser (N)";
+constexpr const char* kNoHalves = "this film has no two halves of its samples: turn the denoiser on (N)";
+constexpr const char* kNotDenoised = "it needs the denoiser (N)";
 
 constexpr ViewModeRow kModes[] = {
     {"Picture", ViewMode::Picture, "Radiance, with exposure and tone mapping", ""},
