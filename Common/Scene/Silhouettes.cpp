@@ -184,19 +184,19 @@ void drawQuad(const Light& light, EdgeImage& image) {
 }
 
 // Positions on a grid so fine that only those of one vertex share a place, but for where rounding parts them.
-using Place = std::array<std::int64_t, 3>;
+using GridPlace = std::array<std::int64_t, 3>;
 
 struct TriangleEdge {
-    Place first, second;    // first <= second
-    bool isFront;           // the eye sees the triangle's front side
-    std::uint32_t triangle; // among the lights
+    GridPlace first, second; // first <= second
+    bool isFront;            // the eye sees the triangle's front side
+    std::uint32_t triangle;  // among the lights
     glm::dvec3 a, b;
     auto key() const { return std::tie(first, second, isFront); }
 };
 
 void appendEdges(const Light& light, std::uint32_t index, bool isFront, double grid, std::vector<TriangleEdge>& edges) {
     const glm::dvec3 corners[] = {light.position, light.position + light.edgeU, light.position + light.edgeV};
-    Place places[3];
+    GridPlace places[3];
     for (int i = 0; i < 3; ++i)
         for (int c = 0; c < 3; ++c)
             places[i][static_cast<std::size_t>(c)] = static_cast<std::int64_t>(std::round(corners[i][c] / grid));

@@ -21,7 +21,7 @@ std::string excerpt(const Json& value) {
     return text.size() <= 60 ? text : text.substr(0, 57) + "...";
 }
 
-std::string listed(std::span<const char* const> names) {
+std::string alternatives(std::span<const char* const> names) {
     std::string text;
     for (const char* name : names) text.append(text.empty() ? "" : ", ").append(name);
     return text;
@@ -50,11 +50,11 @@ void JsonNode::failValue(const std::string& expected) const {
 }
 
 void JsonNode::expectKeys(std::span<const char* const> allowed) const {
-    if (!value_->is_object()) failValue("an object with " + listed(allowed));
+    if (!value_->is_object()) failValue("an object with " + alternatives(allowed));
     for (const auto& member : value_->items()) {
         const auto matches = [&](const char* name) { return member.key() == name; };
         if (std::none_of(allowed.begin(), allowed.end(), matches))
-            fail("unknown key " + excerpt(member.key()) + "; allowed: " + listed(allowed));
+            fail("unknown key " + excerpt(member.key()) + "; allowed: " + alternatives(allowed));
     }
 }
 
@@ -92,7 +92,7 @@ std::string JsonNode::string() const {
 std::string JsonNode::oneOf(std::initializer_list<const char*> allowed) const {
     std::string text = value_->is_string() ? value_->get<std::string>() : std::string();
     if (std::none_of(allowed.begin(), allowed.end(), [&](const char* name) { return text == name; }))
-        failValue("one of " + listed({allowed.begin(), allowed.size()}));
+        failValue("one of " + alternatives({allowed.begin(), allowed.size()}));
     return text;
 }
 
