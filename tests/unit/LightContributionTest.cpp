@@ -1,11 +1,11 @@
 // What lights are estimated to contribute, by which they are chosen.
-#include <algorithm>
 #include <functional>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "Common/Scene/Compiler/LightTable.h"
 #include "Common/Shared/Light/LightContribution.h"
 #include "tests/unit/LightDraws.h"
 #include "tests/unit/LightShapes.h"
@@ -18,24 +18,12 @@ using test::agrees;
 using test::Mean;
 using test::Uniforms;
 
+// What the scene compiler tells choices of a light.
 LightBound boundOf(const Light& light) {
-    LightBound bound{};
-    if (light.kind == kLightSphere) {
-        bound.center = light.position;
-        bound.radius = light.radius;
-        bound.omnidirectional = 1.0f;
-        bound.intensity = kPi * light.radius * light.radius;
-        return bound;
-    }
-    dvec3 middle(0);
-    for (const dvec3& v : vertices(light)) middle += v / double(vertices(light).size());
-    for (const dvec3& v : vertices(light))
-        bound.radius = std::max(bound.radius, static_cast<float>(glm::length(v - middle) * 1.000001));
-    bound.center = vec3(middle);
-    bound.axis = light.normal;
-    bound.twoSided = light.sides == kSidesBoth ? 1.0f : 0.0f;
-    bound.intensity = light.area;
-    return bound;
+    scene::CompiledScene lit;
+    lit.lights = {light};
+    scene::finishLights(lit);
+    return lit.lightBounds.front();
 }
 
 Light randomLight(Uniforms& uniform, double size) {

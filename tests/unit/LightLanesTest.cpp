@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "Common/Scene/Compiler/LightTable.h"
 #include "RayTracingCPU/LightLanes.h"
 #include "tests/unit/LightDraws.h"
 #include "tests/unit/LightShapes.h"
@@ -19,29 +20,15 @@ constexpr Features kFeatures = kFeatureQuads | kFeatureSpheres | kFeatureLambert
                                kFeatureDielectric | kFeatureLights | kFeatureQuadLights | kFeatureSphereLights |
                                kFeatureTriangleLights | kFeatureMovingSpheres;
 
-// A scene of lights alone, as the engine keeps them.
+// A scene of lights alone, with the table that the scene compiler makes of them.
 struct LitScene {
-    std::vector<Light> lights;
-    std::vector<LightBound> bounds;
+    scene::CompiledScene compiled;
     CpuScene scene;
 
-    void add(const Light& light, float intensity) {
-        LightBound bound{};
-        const bool isSphere = light.kind == kLightSphere;
-        bound.center = isSphere ? light.position : light.position + 0.5f * (light.edgeU + light.edgeV);
-        bound.radius = isSphere ? light.radius : 0.5f * length(light.edgeU) + 0.5f * length(light.edgeV);
-        bound.axis = isSphere ? vec3(0.0f) : light.normal;
-        bound.twoSided = light.sides == kSidesBoth ? 1.0f : 0.0f;
-        bound.omnidirectional = isSphere ? 1.0f : 0.0f;
-        bound.intensity = intensity;
-        lights.push_back(light);
-        bounds.push_back(bound);
-    }
-
     const CpuScene& get() {
-        scene.lights = lights.data();
-        scene.lightBounds = bounds.data();
-        scene.globals.lightCount = static_cast<uint>(lights.size());
+        scene.lights = compiled.lights.data();
+        scene.lightBounds = compiled.lightBounds.data();
+        scene.globals.lightCount = compiled.globals.lightCount;
         return scene;
     }
 };
@@ -83,11 +70,11 @@ Light randomLight(Uniforms& uniform) {
 
 LitScene randomScene(Uniforms& uniform, uint count) {
     LitScene scene;
-    for (uint i = 0; i < count; ++i) scene.add(randomLight(uniform), static_cast<float>(uniform.between(0, 2)));
     for (uint i = 0; i < count; ++i) {
-        scene.lights[i].selection = 1.0f / static_cast<float>(count);
-        scene.lights[i].cdf = static_cast<float>(i + 1) / static_cast<float>(count);
+        scene.compiled.lights.push_back(randomLight(uniform));
+        scene.compiled.lights.back().emission *= static_cast<float>(uniform.between(0, 2));
     }
+    scene::finishLights(scene.compiled);
     return scene;
 }
 
