@@ -93,22 +93,25 @@ TEST(PathReuse, ChangesNothingButNoise) {
     expectSame("rest-of-life-cornell-box", settings);
 }
 
-// Four paths in place of one leave less than half of the noise where nearly all of it is of indirect light.
+// Less than longer renders of as many rays would leave.
 TEST(PathReuse, LeavesLessNoise) {
     const auto scene = compiledScene("rest-of-life-cornell-box");
     const auto engine = cpu::makeCpuEngine({});
     engine->setScene(scene, nullptr);
-    const auto variance = [&](PathReuse reuse) {
+    const auto noiseInAllRays = [&](PathReuse reuse) {
         app::RenderSettings settings;
         settings.width = settings.height = 48;
         settings.spp = 64;
         settings.pathReuse = reuse;
         std::vector<image::Image> images;
-        for (settings.seed = 1; settings.seed <= 8; ++settings.seed)
+        std::uint64_t rays = 0;
+        for (settings.seed = 1; settings.seed <= 8; ++settings.seed) {
             images.push_back(renderImage(*engine, *scene, settings));
-        return varianceOf(images);
+            rays += engine->report().rays.all();
+        }
+        return varianceOf(images) * static_cast<double>(rays);
     };
-    EXPECT_GT(variance(PathReuse::Off), 2 * variance(PathReuse::On));
+    EXPECT_GT(noiseInAllRays(PathReuse::Off), noiseInAllRays(PathReuse::On));
 }
 
 // On the floor of a grey box, where a ball of glass in the air focuses a lamp that is too wide for connections.
@@ -124,7 +127,7 @@ SceneDesc ballInBox() {
     return desc;
 }
 
-// Paths that are shared aim at the ball.
+// Paths that are shared aim at the ball, and leave less noise than longer renders of as many rays would.
 TEST(PathReuse, AimsAtGlass) {
     const auto scene = compileScene(ballInBox());
     const auto engine = cpu::makeCpuEngine({});
@@ -132,16 +135,19 @@ TEST(PathReuse, AimsAtGlass) {
     app::RenderSettings settings;
     settings.width = settings.height = 32;
     settings.spp = 64;
-    const auto images = [&](bool aims, std::uint32_t firstSeed) {
+    const auto images = [&](bool aims, std::uint32_t firstSeed, double& raysAnImage) {
         settings.specularConnections = aims;
         EXPECT_EQ(methodsOf(*scene, settings), aims ? kReuseAimed : kReuseScattered);
-        return independentImages(*engine, *scene, settings, firstSeed);
+        const auto result = independentImages(*engine, *scene, settings, firstSeed);
+        raysAnImage = static_cast<double>(engine->report().rays.all());
+        return result;
     };
-    const auto aimed = images(true, 100), scattered = images(false, 1000);
+    double aimedRays = 0, scatteredRays = 0;
+    const auto aimed = images(true, 100, aimedRays), scattered = images(false, 1000, scatteredRays);
     const auto result = image::testImages(aimed, scattered);
     EXPECT_GT(result.globalP, 1e-4) << result.summary();
     EXPECT_EQ(result.tileDiscoveries, 0u) << result.summary();
-    EXPECT_GT(varianceOf(scattered), 1.5 * varianceOf(aimed));
+    EXPECT_GT(varianceOf(scattered) * scatteredRays, varianceOf(aimed) * aimedRays);
 }
 
 // Where the light at vertices is known, to compare what comes by way of the ball with.
