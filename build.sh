@@ -8,7 +8,7 @@ headless_packages=(g++ cmake ninja-build pkg-config libglm-dev libspdlog-dev nlo
                    libtinygltf-dev libstb-dev libjpeg-dev libpng-dev libopenexr-dev libtiff-dev libwebp-dev libtbb-dev
                    libvulkan-dev glslang-tools spirv-tools)
 build_packages=("${headless_packages[@]}" libglfw3-dev libimgui-dev fonts-dejavu-core)
-test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang vulkan-validationlayers xvfb xdotool libx11-dev
+test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang clang-format clang-tidy vulkan-validationlayers xvfb xdotool libx11-dev
                assimp-testmodels patch zsh fish groff-base desktop-file-utils appstream shared-mime-info)
 bench_packages=(libbenchmark-dev libembree-dev)
 fuzz_packages=(clang libclang-rt-dev) # which holds libFuzzer and the sanitizers; clang only recommends it

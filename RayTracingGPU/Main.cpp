@@ -56,8 +56,8 @@ rt::ExitCode render(const rt::app::Options& options, rt::app::Communicator* rank
     rt::ExitCode code;
     {
         Device device(options, ranks);
-        code = rt::app::runSession(
-            options, [&] { return device.makeEngine(); }, ranks);
+        const auto makeEngine = [&] { return device.makeEngine(); };
+        code = rt::app::runSession(options, makeEngine, ranks);
     }
     if (const std::uint64_t messages = rt::vulkan::Instance::allValidationMessages(); messages > 0) {
         throw rt::RenderError(std::to_string(messages) + " messages of Vulkan's validation");
@@ -131,8 +131,8 @@ bool follow(const std::vector<std::string>& arguments, rt::app::Communicator& ra
     if (!options || options->window || options->command != rt::app::Command::Render) return false;
     rt::setUpLog({kGpuProgram, true, false, ""});
     Device device(*options, &ranks);
-    rt::app::followSession(
-        *options, [&] { return device.makeEngine(); }, ranks);
+    const auto makeEngine = [&] { return device.makeEngine(); };
+    rt::app::followSession(*options, makeEngine, ranks);
     return true;
 }
 

@@ -277,9 +277,8 @@ void Flattener::add(const SceneTree& tree) {
         addNodes(tree, trees_.wideNodes, [&](std::uint32_t node) { return collapse.children(node); });
     } else {
         using Children = Collapse<2>::Children;
-        addNodes(tree, trees_.nodes, [&](std::uint32_t node) {
-            return Children{{nodes[node].first, nodes[node].first + 1}, 2};
-        });
+        const auto pair = [&](std::uint32_t node) { return Children{{nodes[node].first, nodes[node].first + 1}, 2}; };
+        addNodes(tree, trees_.nodes, pair);
     }
 }
 

@@ -40,7 +40,7 @@ double medianOf(const Measured& measured, std::size_t step, Function get) {
     return image::median(values(measured, step, get));
 }
 
-Figure medianOfKnown(const Measured& measured, std::size_t step, Figure Snapshot::*figure) {
+Figure medianOfKnown(const Measured& measured, std::size_t step, FigureOf<Snapshot> figure) {
     std::vector<double> known;
     for (const Run& run : measured.runs)
         if (step < run.snapshots.size() && run.snapshots[step].*figure) known.push_back(*(run.snapshots[step].*figure));
@@ -146,7 +146,7 @@ std::string baselineKey(const Experiment& experiment, const Config& config) {
     return keyOf(base);
 }
 
-std::vector<CurvePoint> curve(const std::vector<const Row*>& rows, Figure Row::*x, Figure Row::*y) {
+std::vector<CurvePoint> curve(const std::vector<const Row*>& rows, FigureOf<Row> x, FigureOf<Row> y) {
     std::vector<CurvePoint> points;
     for (const Row* row : rows)
         if (row->*x && row->*y) points.push_back({*(row->*x), *(row->*y)});

@@ -59,7 +59,7 @@ Change compareRows(const Row& before, const Row& after) {
 }
 
 // How far the rows of one run are from those of the other, all together.
-std::string repeatability(const std::string& what, const Comparison& comparison, Figure Change::*figure) {
+std::string repeatability(const std::string& what, const Comparison& comparison, FigureOf<Change> figure) {
     std::vector<double> ratios;
     for (const Change& change : comparison.changes)
         if (change.*figure) ratios.push_back(*(change.*figure));

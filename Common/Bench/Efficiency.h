@@ -12,9 +12,9 @@ namespace rt::bench {
 // The pixels that an error is of, as columns of rows.
 struct PixelSet {
     const char* name;
-    Figure Row::*mse;
-    Figure Row::*mseCi;
-    Figure Row::*efficiency;
+    FigureOf<Row> mse;
+    FigureOf<Row> mseCi;
+    FigureOf<Row> efficiency;
 };
 std::span<const PixelSet> pixelSets(); // all; those that the reference has at 1 or less
 

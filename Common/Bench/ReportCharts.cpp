@@ -38,7 +38,7 @@ ChartLine& lineNamed(Chart& chart, const std::string& name) {
     return found == chart.lines.end() ? chart.lines.emplace_back(ChartLine{name, {}}) : *found;
 }
 
-Chart errorChart(const Rows& rows, const std::string& title, Figure Row::*x, const std::string& xTitle) {
+Chart errorChart(const Rows& rows, const std::string& title, FigureOf<Row> x, const std::string& xTitle) {
     Chart chart{title + ": relMSE against " + xTitle, xTitle, "relmse", {}, true};
     const std::vector<const Axis*> axes = varied(rows, {"scene", "height"});
     for (const Row* row : rows)

@@ -102,9 +102,12 @@ struct Results {
 // ---- rows as columns -----------------------------------------------------------------------------------------------
 
 template <class T>
+using FigureOf = Figure T::*;
+
+template <class T>
 struct FigureColumn {
     std::string_view name;
-    Figure T::*value;
+    FigureOf<T> value;
 };
 std::span<const FigureColumn<Row>> rowColumns();
 std::span<const FigureColumn<Series>> seriesColumns();

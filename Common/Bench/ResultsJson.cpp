@@ -166,9 +166,10 @@ Results parseResults(const std::string& text, const std::string& file) {
     results.suite = root.at("suite").string();
     results.title = root.at("title").string();
     results.complete = root.at("complete").boolean();
-    root.at("machine").forEachMember([&](const std::string& name, const JsonNode& node) {
+    const auto addFact = [&](const std::string& name, const JsonNode& node) {
         results.facts.push_back({name, node.string()});
-    });
+    };
+    root.at("machine").forEachMember(addFact);
     root.at("notices").forEachElement([&](const JsonNode& node) { results.notices.push_back(node.string()); });
     root.at("rows").forEachElement([&](const JsonNode& node) { results.rows.push_back(readRow(node)); });
     root.at("series").forEachElement([&](const JsonNode& node) {

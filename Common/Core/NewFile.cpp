@@ -41,8 +41,8 @@ std::error_code createExclusively(const fs::path& path, Access access) {
 }
 
 void copyOwnerAndMode(const fs::path& from, const fs::path& to) {
-    struct stat wanted {};
-    struct stat made {};
+    struct stat wanted = {};
+    struct stat made = {};
     if (stat(from.c_str(), &wanted) != 0 || lstat(to.c_str(), &made) != 0) return;
     mode_t mode = wanted.st_mode & 0777;
     const bool isGroupKept =

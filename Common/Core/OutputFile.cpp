@@ -204,7 +204,7 @@ std::vector<std::string> namesIn(const fs::path& folder) {
 void removeAbandoned(const fs::path& file) {
     const int descriptor = open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) return;
-    struct stat is {};
+    struct stat is = {};
     const bool isOwn = fstat(descriptor, &is) == 0 && S_ISREG(is.st_mode) && is.st_uid == geteuid();
     if (isOwn && isOld(file) && flock(descriptor, LOCK_EX | LOCK_NB) == 0) unlink(file.c_str());
     close(descriptor);

@@ -82,20 +82,16 @@ void Window::listen() {
         self(w).input_ = true;
         if (action != GLFW_REPEAT) self(w).note({Kind::Key, key, scancode, modifiers, action == GLFW_PRESS});
     });
-    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned character) {
-        self(w).note({Kind::Text, static_cast<int>(character)});
-    });
-    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int isInside) {
-        self(w).note({Kind::Enter, 0, 0, 0, isInside == GLFW_TRUE});
-    });
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
-        self(w).note({Kind::Move, 0, 0, 0, false, x, y});
-    });
+    const auto onText = [](GLFWwindow* w, unsigned text) { self(w).note({Kind::Text, static_cast<int>(text)}); };
+    const auto onEnter = [](GLFWwindow* w, int isIn) { self(w).note({Kind::Enter, 0, 0, 0, isIn == GLFW_TRUE}); };
+    const auto onMove = [](GLFWwindow* w, double x, double y) { self(w).note({Kind::Move, 0, 0, 0, false, x, y}); };
+    const auto onWheel = [](GLFWwindow* w, double x, double y) { self(w).note({Kind::Wheel, 0, 0, 0, false, x, y}); };
+    glfwSetCharCallback(window_, onText);
+    glfwSetCursorEnterCallback(window_, onEnter);
+    glfwSetCursorPosCallback(window_, onMove);
+    glfwSetScrollCallback(window_, onWheel);
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int modifiers) {
         self(w).note({Kind::Button, button, 0, modifiers, action == GLFW_PRESS});
-    });
-    glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
-        self(w).note({Kind::Wheel, 0, 0, 0, false, x, y});
     });
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int hasFocus) {
         self(w).events_.push({Kind::Focus, 0, 0, 0, hasFocus == GLFW_TRUE});

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
@@ -123,20 +124,13 @@ Plane convolve(const Plane& in, const Kernel& horizontal, const Kernel& vertical
 struct Gaussian {
     double a, b;
 };
-constexpr std::array<std::vector<Gaussian> (*)(), 3> kSensitivity = {
-    [] {
-        return std::vector<Gaussian>{{1, 0.0047}};
-    },
-    [] {
-        return std::vector<Gaussian>{{1, 0.0053}};
-    },
-    [] {
-        return std::vector<Gaussian>{{34.1, 0.04}, {13.5, 0.025}};
-    },
-};
+constexpr Gaussian kToLuminance[] = {{1, 0.0047}};
+constexpr Gaussian kToRedGreen[] = {{1, 0.0053}};
+constexpr Gaussian kToBlueYellow[] = {{34.1, 0.04}, {13.5, 0.025}};
+constexpr std::array<std::span<const Gaussian>, 3> kSensitivity = {kToLuminance, kToRedGreen, kToBlueYellow};
 constexpr double kWidestB = 0.04;
 
-Plane filterBySensitivity(const Plane& in, const std::vector<Gaussian>& gaussians, double pixelsPerDegree) {
+Plane filterBySensitivity(const Plane& in, std::span<const Gaussian> gaussians, double pixelsPerDegree) {
     const int radius = static_cast<int>(std::ceil(3 * std::sqrt(kWidestB / (2 * kPi * kPi)) * pixelsPerDegree));
     Plane out(in.width, in.height, 1);
     double total = 0;
@@ -179,7 +173,7 @@ Seen see(const Image& image, double pixelsPerDegree) {
         luminance.data[i] = (value.x + 16.0f) / 116.0f;
     }
     for (std::size_t c = 0; c < 3; ++c)
-        opponent[c] = filterBySensitivity(opponent[c], kSensitivity[c](), pixelsPerDegree);
+        opponent[c] = filterBySensitivity(opponent[c], kSensitivity[c], pixelsPerDegree);
     Seen seen;
     seen.lab.resize(luminance.data.size());
     for (std::size_t i = 0; i < seen.lab.size(); ++i) {

@@ -53,6 +53,9 @@ bench::EngineKind cpuKind(const char* name, cpu::Policy policy) {
 // The engines of this machine, and the device that some of them share.
 class EngineList {
   public:
+    const std::vector<bench::EngineKind>& kinds() const { return kinds_; }
+    const std::vector<bench::Fact>& facts() const { return facts_; }
+
     explicit EngineList(const bench::BenchOptions& options) {
         kinds_.push_back(cpuKind("single", cpu::Policy::Seq));
         kinds_.push_back(cpuKind("multi", cpu::Policy::Par));
@@ -61,13 +64,6 @@ class EngineList {
 #else
         (void)options;
 #endif
-    }
-
-    const std::vector<bench::EngineKind>& kinds() const {
-        return kinds_;
-    }
-    const std::vector<bench::Fact>& facts() const {
-        return facts_;
     }
 
   private:

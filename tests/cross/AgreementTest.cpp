@@ -138,8 +138,8 @@ TEST_P(AgreementTest, SampleForSample) {
 std::string sceneName(const ::testing::TestParamInfo<SceneAndEngine>& info) {
     const auto [index, engine] = info.param;
     std::string name = std::string(scene::builtinScenes()[index].id) + "_" + app::nameOf(app::kGpuEngines, engine);
-    std::replace_if(
-        name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    const auto isOther = [](unsigned char c) { return std::isalnum(c) == 0; };
+    std::replace_if(name.begin(), name.end(), isOther, '_');
     return name;
 }
 

@@ -59,8 +59,8 @@ TEST_P(EstimatorsTest, EnginesAgree) {
 
 std::string builtinName(const ::testing::TestParamInfo<SceneAndEstimators>& info) {
     std::string name(scene::builtinScenes()[info.param.scene].id);
-    std::replace_if(
-        name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    const auto isOther = [](unsigned char c) { return std::isalnum(c) == 0; };
+    std::replace_if(name.begin(), name.end(), isOther, '_');
     return name;
 }
 

@@ -30,7 +30,7 @@ TEST(HandleTest, ObjectsOfAbandonedDevicesAreLeftAlone) {
         abandon(fakeDevice(2));
     }
     EXPECT_EQ(destroyed, 1);
-    { const Handle<VkFence> fence = fakeFence(fakeDevice(3)); }
+    static_cast<void>(fakeFence(fakeDevice(3))); // destroyed at once
     EXPECT_EQ(destroyed, 2);
 }
 

@@ -36,7 +36,7 @@ bug 'half a texel' Textures.h 's/float at = p - 0\.5f;/float at = p;/' unit.Text
 # ---- acceleration structures -----------------------------------------------------------------------------------------
 bug 'box of a sphere' PrimitiveBoxes.cpp 's/box\.upper \+= vec3\(sphere\.radius\)/box.upper += vec3(0.5f * sphere.radius)/' unit.AccelOracle
 bug 'hits behind the nearest' TraverseNodes.h 's/lanes\.mask & \(lanes\.t <= broadcast\(best\.t\)\)/lanes.mask/' unit.AccelOracle
-bug 'boxes of the GPU that are left early' Traverse.glsl 's/leave = min\(leave, middle \+ reach\);/leave = min(leave, (middle + reach) * 0.97f);/' cross.Scenes/AgreementTest
+bug 'boxes of the GPU that are left early' TraverseTree.glsl 's/leave = min\(leave, middle \+ reach\);/leave = min(leave, (middle + reach) * 0.97f);/' cross.Scenes/AgreementTest
 
 # ---- film and images -------------------------------------------------------------------------------------------------
 bug 'checkpoint without squares' FilmState.cpp 's/writer\.put\(std::span\(squares_\)\);//' unit.FilmCheckpoint

@@ -38,8 +38,7 @@ TEST_F(FilmReferenceTest, FitsFilmsOfOneSceneCameraSizeAndDepth) {
     moved.camera.lookFrom.x += 1;
     reference_.begin(moved);
     EXPECT_FALSE(reference_.fits());
-    for (std::uint32_t ReferenceKey::*const field :
-         {&ReferenceKey::width, &ReferenceKey::height, &ReferenceKey::maxDepth}) {
+    for (const auto field : {&ReferenceKey::width, &ReferenceKey::height, &ReferenceKey::maxDepth}) {
         ReferenceKey other = key(7);
         ++(other.*field);
         reference_.begin(other);

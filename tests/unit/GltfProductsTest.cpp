@@ -163,14 +163,15 @@ TEST_F(GltfProducts, EmissionOfVertexColorsIsInNoLightTable) {
 }
 
 TEST_F(GltfProducts, OfNumbersOfExtensions) {
+    using V = shared::PrincipledValues;
+    using Factor = float V::*;
     struct Product {
         const char* extension;
         const char* factor;
         const char* texture;
-        float shared::PrincipledValues::*value;
+        Factor value;
         double texel;
     };
-    using V = shared::PrincipledValues;
     const Product products[] = {
         {"KHR_materials_transmission", "transmissionFactor", "transmissionTexture", &V::transmission, kLinear.r},
         {"KHR_materials_specular", "specularFactor", "specularTexture", &V::specular, kAlpha},

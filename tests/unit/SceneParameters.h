@@ -3,7 +3,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <type_traits>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -52,8 +51,8 @@ inline Json sample(const SceneParameter& p, std::uint32_t) {
 inline Json sample(const SceneParameter& p, const std::optional<std::uint32_t>&) {
     return sample(p, 0u);
 }
-template <typename Enumeration>
-requires std::is_enum_v<Enumeration> Json sample(const SceneParameter& p, Enumeration) {
+template <scene::IsEnumeration Enumeration>
+Json sample(const SceneParameter& p, Enumeration) {
     return p.choices().back();
 }
 
@@ -93,8 +92,8 @@ inline Json schemaOf(const SceneParameter& p, std::uint32_t usual) {
     schema["default"] = usual;
     return schema;
 }
-template <typename Enumeration>
-requires std::is_enum_v<Enumeration> Json schemaOf(const SceneParameter& p, Enumeration) {
+template <scene::IsEnumeration Enumeration>
+Json schemaOf(const SceneParameter& p, Enumeration) {
     return {{"enum", p.choices()}};
 }
 

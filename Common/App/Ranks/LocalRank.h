@@ -55,9 +55,7 @@ class LocalRank {
   public:
     LocalRank(Engine& engine, const scene::CompiledScene& scene, const RenderSettings& settings)
         : processorsRender_(engine.report().threads > 0),
-          link_{[this](Message message, TilesToPack tiles) {
-                    outbox_.put({std::move(message), std::move(tiles)});
-                },
+          link_{[this](Message message, TilesToPack tiles) { answer(std::move(message), std::move(tiles)); },
                 [this] { return inbox_.take(); }, [this] { inbox_.wait(); }},
           thread_([this, &engine, &scene, settings] { serve(engine, scene, settings); }) {}
     ~LocalRank() {
@@ -85,6 +83,8 @@ class LocalRank {
         Message message;
         TilesToPack tiles;
     };
+
+    void answer(Message message, TilesToPack tiles) { outbox_.put({std::move(message), std::move(tiles)}); }
 
     void serve(Engine& engine, const scene::CompiledScene& scene, const RenderSettings& settings) {
         try {

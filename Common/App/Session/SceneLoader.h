@@ -34,8 +34,8 @@ class SceneLoader {
     void open(const std::string& source); // as what was requested last, but for the camera: the scene's own
     bool setOneSidedLights(bool on);      // loads anew what was requested last; false: it is loaded so
     SceneRequest lastRequest() const;
-    void
-    giveUp(); // what is loaded or has just been; the last request is then the one before that was handed over
+    // What is loaded or has just been; the last request is then the one before that was handed over.
+    void giveUp();
     bool isWanted(const SceneRequest& request) const; // nothing else has been requested, nor has it been given up
     // What is being loaded, if anything.
     std::optional<std::string> busyWith() const;

@@ -113,7 +113,7 @@ std::string GltfTextures::texture(const GltfSlot& slot, ColorSpace space, const 
     for (const auto& [name, known] : scene_.textures)
         if (known == TextureDesc(texture)) return name;
     const std::string& own = file_.images[image].name;
-    const std::string name = names_.unique(own.empty() ? source.name : own, "image", image);
+    std::string name = names_.unique(own.empty() ? source.name : own, "image", image);
     scene_.textures[name] = texture;
     return name;
 }

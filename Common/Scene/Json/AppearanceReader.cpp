@@ -1,8 +1,8 @@
 // Reading of scene files: textures and materials.
 #include <algorithm>
-#include <type_traits>
 
 #include "Common/Scene/Json/PrincipledType.h"
+#include "Common/Scene/Json/SceneParameter.h"
 #include "Common/Scene/Json/SceneReader.h"
 #include "Common/Scene/Json/TextureTypes.h"
 #include "Common/Scene/MaterialTypes.h"
@@ -51,8 +51,7 @@ class ParameterReader {
                 : p.section ? references_.name(at(p), p.section)
                             : references_.file(at(p), record_.has("stand_in"));
     }
-    template <typename Enumeration>
-    requires std::is_enum_v<Enumeration>
+    template <IsEnumeration Enumeration>
     void read(const SceneParameter& p, Enumeration& value) const {
         value = enumeration<Enumeration>(at(p), p.choices());
     }

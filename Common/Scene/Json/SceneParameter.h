@@ -2,11 +2,15 @@
 // follow from it and from the type of the member that it is read into.
 #pragma once
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "Common/Scene/Json/JsonNode.h"
 
 namespace rt::scene {
+
+template <class T>
+concept IsEnumeration = std::is_enum_v<T>;
 
 // The type of the member says what else it may be: components of a colour lie in [0,1], a string is the name of a file.
 struct SceneParameter {

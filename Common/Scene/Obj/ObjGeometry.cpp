@@ -238,8 +238,7 @@ bool ObjGeometry::hasPositions(const Face& face, const Corner* corners) {
 
 // Whether every corner has one of these entries.
 template <class Value>
-bool ObjGeometry::has(const Face& face, const Corner* corners, const ObjEntries<Value>& entries,
-                      std::uint32_t Corner::*index) {
+bool ObjGeometry::has(const Face& face, const Corner* corners, const ObjEntries<Value>& entries, IndexOfCorner index) {
     const EntryWords& words = index == &Corner::uv ? kUvWords : kNormalWords;
     const char *name = words.name, *content = words.content;
     std::size_t count = 0;

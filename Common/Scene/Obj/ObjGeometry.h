@@ -66,6 +66,7 @@ class ObjGeometry {
     struct Corner {
         std::uint32_t position, uv, normal;
     };
+    using IndexOfCorner = std::uint32_t Corner::*;
     struct Face {
         std::size_t line;
         Triangles* triangles;
@@ -79,7 +80,7 @@ class ObjGeometry {
     void build(const Face& face, const Corner* corners);
     void cut(const Face& face, bool isSmooth);
     template <class Value>
-    bool has(const Face& face, const Corner* corners, const ObjEntries<Value>& entries, std::uint32_t Corner::*index);
+    bool has(const Face& face, const Corner* corners, const ObjEntries<Value>& entries, IndexOfCorner index);
     bool hasPositions(const Face& face, const Corner* corners);
     bool hasColor(std::uint32_t vertex) const;
     unsigned kindOf(const glm::uvec3& triangle, bool withColors) const;

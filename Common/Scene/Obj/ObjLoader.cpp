@@ -133,7 +133,7 @@ class ObjReader {
 
     // Counts the triangles of parts of one material from `first` on that do without what others there have.
     void noteMixture(std::size_t first) {
-        const auto note = [&](auto MeshData::*attribute, Lack& lack) {
+        const auto note = [&](auto attribute, Lack& lack) {
             std::size_t without = 0, with = 0;
             for (std::size_t i = first; i < model_.parts.size(); ++i) {
                 const MeshData& mesh = model_.parts[i].mesh;

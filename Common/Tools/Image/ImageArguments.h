@@ -12,9 +12,11 @@ namespace rt::tools {
 
 inline constexpr const char* kImageTool = "ray-tracing-image";
 
+using FigureOfError = double image::ErrorFigures::*;
+
 struct Metric {
     const char* name;
-    double image::ErrorFigures::*value;
+    FigureOfError value;
     bool moreIsBetter;
 };
 
