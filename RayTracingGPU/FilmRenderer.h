@@ -44,7 +44,6 @@ class FilmRenderer {
     // From the device; nothing where the host has what there is.
     std::optional<app::TilesToPack> takeTiles(const image::TileList& tiles);
     std::optional<app::Snapshot> snapshot();
-    bool hasFailed() const { return failed_; }
 
   private:
     void loadTiles();

@@ -11,11 +11,11 @@
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/ShaderFigures.h"
 #include "RayTracingGPU/AovPass.h"
-#include "RayTracingGPU/CostPass.h"
 #include "RayTracingGPU/EngineChoice.h"
 #include "RayTracingGPU/FilmRenderer.h"
 #include "RayTracingGPU/GpuScene.h"
 #include "RayTracingGPU/MeasuredEngine.h"
+#include "RayTracingGPU/PixelPass.h"
 #include "RayTracingGPU/PreviewPass.h"
 #include "RayTracingGPU/RenderKernels.h"
 
@@ -126,8 +126,12 @@ app::AovImages GpuEngine::renderAovs(const app::AovRequest& request, std::uint32
 image::Image GpuEngine::renderCost(app::Cost cost, std::uint32_t samples) {
     if (!knowsCost(cost)) return {};
     const auto kernel = kernels_.make(cost == app::Cost::Time ? KernelPurpose::Time : KernelPurpose::Rays);
-    return renderCostPass(context_, *kernel, settings_.width, settings_.height, settings_.maxDepth,
-                          std::max(samples, 1u));
+    image::Image costs(settings_.width, settings_.height, 1);
+    runPixelPass(context_, *kernel, {settings_.width, settings_.height, settings_.maxDepth, std::max(samples, 1u), 1},
+                 [&](std::span<const float> values, std::size_t first) {
+                     std::copy(values.begin(), values.end(), &costs.data[first]);
+                 });
+    return costs;
 }
 
 app::Preview GpuEngine::renderPreview(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) {

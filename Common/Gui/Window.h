@@ -55,7 +55,6 @@ class Window {
     // Both change when the window goes to another monitor, or that is set up anew.
     float pixelDensity() const; // pixels for one of the window's units, to 1/20
     float monitorScale() const; // how large things are to be, in the window's units: 1 for 96 of them per inch
-    bool isFullScreen() const { return fullScreen_; }
     void toggleFullScreen();
     WindowPlace place() const; // as it is when it fills neither screen nor monitor
 
