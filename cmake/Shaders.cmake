@@ -1,4 +1,5 @@
-# Shaders are compiled to SPIR-V, checked, and become arrays of C++ headers: nothing is looked up at run time.
+# Shaders are compiled to SPIR-V and become arrays of C++ headers: nothing is looked up at run time. That they are valid is
+# tested (tests/structure/ValidShaders.cmake), which takes longer than to compile them.
 find_program(RT_GLSLANG NAMES glslangValidator glslang)
 find_program(RT_SPIRV_VAL spirv-val)
 mark_as_advanced(RT_GLSLANG RT_SPIRV_VAL)
@@ -16,7 +17,7 @@ endif()
 function(rt_require_vulkan)
     if(NOT RT_CAN_BUILD_GPU)
         message(FATAL_ERROR "RT_BUILD_GPU and RT_BUILD_GUI need Vulkan's headers and loader and glslangValidator. "
-                            "Debian, Ubuntu: apt install libvulkan-dev glslang-tools spirv-tools.")
+                            "Debian, Ubuntu: apt install libvulkan-dev glslang-tools.")
     endif()
     if(RT_BUILD_GUI AND NOT RT_CAN_BUILD_GUI)
         message(FATAL_ERROR "RT_BUILD_GUI needs GLFW and Dear ImGui. Debian, Ubuntu: apt install libglfw3-dev "
@@ -58,14 +59,9 @@ function(rt_embed_shaders target)
         set(header ${folder}/${shader}.h)
         string(REPLACE "." "_" symbol ${shader})
         set(compile ${RT_GLSLANG} --quiet --target-env vulkan1.2 ${defines} -I${PROJECT_SOURCE_DIR})
-        set(validate)
-        if(RT_SPIRV_VAL)
-            set(validate COMMAND ${RT_SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${binary})
-        endif()
         add_custom_command(
             OUTPUT ${binary} ${header}
             COMMAND ${compile} --depfile ${header}.d -o ${binary} ${source}
-            ${validate}
             COMMAND ${compile} --vn ${symbol} -o ${header} ${source}
             DEPENDS ${source}
             DEPFILE ${header}.d

@@ -1,0 +1,18 @@
+# Fails unless every shader of the build is valid SPIR-V: cmake -DSPIRV_VAL=... -DFOLDER=... -P ValidShaders.cmake
+file(GLOB shaders ${FOLDER}/*.spv)
+list(LENGTH shaders count)
+if(count EQUAL 0)
+    message(FATAL_ERROR "no shader in ${FOLDER}")
+endif()
+set(failed "")
+foreach(shader IN LISTS shaders)
+    execute_process(COMMAND ${SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${shader}
+                    RESULT_VARIABLE code ERROR_VARIABLE messages)
+    if(NOT code EQUAL 0)
+        string(APPEND failed "${shader}:\n${messages}\n")
+    endif()
+endforeach()
+if(failed)
+    message(FATAL_ERROR "${failed}")
+endif()
+message(STATUS "${count} shaders are valid")
