@@ -43,17 +43,9 @@ RT_FN Float8 coordinate(int rowOrColumn) {
     return broadcast(kPerPixel * static_cast<float>(rowOrColumn - kDenoiseReach));
 }
 
-// shared::denoiseWeight of eight distances; `steepness`: an eighth of its factor.
-RT_FN Float8 weightOf(Float8 distances, Float8 steepness) {
-    const Float8 x =
-        maximum(negateMultiplyAdd(steepness, maximum(distances, broadcast(0)), broadcast(1)), broadcast(0));
-    const Float8 x2 = x * x, x4 = x2 * x2;
-    return x4 * x4;
-}
-
 // Weights of what eight pixels have in reach, by the mean distances of their patches; `first`: the place of the eight.
 RT_CALL void weigh(const DenoiseTile& tile, const float* patches, float perSquaredBandwidth, int first, Reach& reach) {
-    const Float8 zero = broadcast(0), steepness = broadcast(0.125f * perSquaredBandwidth);
+    const Float8 zero = broadcast(0);
     reach.total = reach.across = reach.down = reach.across2 = reach.acrossDown = reach.down2 = zero;
     std::ptrdiff_t count = 0;
     for (int row = 0; row < kDenoiseRowOffsets; ++row) {
@@ -61,12 +53,15 @@ RT_CALL void weigh(const DenoiseTile& tile, const float* patches, float perSquar
         const float *inside = tile.inside + start, *distances = patches + row * kDenoiseRowOffsets * kLaneCount;
         Float8 total = zero, across = zero, across2 = zero;
         float* weights = reach.weights + count * kWeightValues;
+        float ofRow[kDenoiseRowOffsets * kLaneCount];
+        for (int i = 0; i < kDenoiseRowOffsets * kLaneCount; ++i)
+            ofRow[i] = shared::denoiseWeight(distances[i], perSquaredBandwidth);
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC unroll 17
 #endif
         for (int column = 0; column < kDenoiseRowOffsets; ++column) {
             const Float8 step = coordinate(column);
-            const Float8 weight = weightOf(load(distances + column * kLaneCount), steepness) * load(inside + column);
+            const Float8 weight = load(ofRow + column * kLaneCount) * load(inside + column);
             const Float8 acrossWeight = weight * step;
             total = total + weight;
             across = across + acrossWeight;
