@@ -161,6 +161,23 @@ TEST(CpuEngine, InterruptionsDoNotShow) {
     EXPECT_TRUE(sameBits(expected, engine->film().resolve().data));
 }
 
+// Whoever watches gets a sample of each replicate in every pixel first, and the same film in the end.
+TEST(CpuEngine, AWatchedFilmHasItsFirstSamplesSoonAndTheSameBits) {
+    const auto scene = builtin("cornell-box-lights");
+    auto settings = plainSettings(37, 50);
+    settings.replicates = 2;
+    const std::vector<float> expected = renderBits(*scene, settings);
+    const auto engine = cpu::makeCpuEngine({cpu::Policy::Seq, 1});
+    engine->setScene(scene, nullptr);
+    engine->reset(scene->camera, settings);
+    const app::Budget oneTile{0s, nullptr, true};
+    std::uint64_t mostBefore = 0; // samples of any pixel, while some pixel has none of a replicate
+    while (!engine->renderSome(oneTile).finished)
+        if (engine->film().minReplicateSamples() == 0) mostBefore = engine->film().maxSamples();
+    EXPECT_EQ(mostBefore, 2u);
+    EXPECT_TRUE(sameBits(expected, engine->film().resolve().data));
+}
+
 // A film that stopped at 21 samples, inside of a block, goes on as if it had not.
 TEST(CpuEngine, ResumesInTheMiddleOfABlock) {
     const auto scene = builtin("cornell-box-lights");

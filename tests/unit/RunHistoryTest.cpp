@@ -68,6 +68,18 @@ TEST_F(RunHistoryTest, GivesBackWhatWasAppended) {
     EXPECT_NEAR(history.records()[0].efficiency(), 1 / 0.15, 1e-9);
 }
 
+TEST_F(RunHistoryTest, ReplicatesArePartOfTheWork) {
+    RunRecord other = record("a");
+    EXPECT_TRUE(isSameWork(record("a"), other));
+    other.replicates = "2";
+    EXPECT_FALSE(isSameWork(record("a"), other));
+    EXPECT_TRUE(isSamePicture(record("a"), other)); // more samples come to the same
+    RunHistory history(file());
+    history.append(other);
+    ASSERT_EQ(history.records().size(), 1u);
+    EXPECT_EQ(history.records()[0].replicates, "2");
+}
+
 TEST_F(RunHistoryTest, SeesWhatAnotherProgramAppends) {
     RunHistory ours(file()), theirs(file());
     ours.append(record("a"));

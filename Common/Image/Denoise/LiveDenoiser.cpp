@@ -51,7 +51,7 @@ void LiveDenoiser::MarginPlane::resize(std::size_t width, std::size_t height, fl
     width_ = width;
     height_ = height;
     pitch_ = width + 2 * kLiveMargin;
-    data_.assign(height * pitch_, outside);
+    data_.assign(height * pitch_ + kLiveOverrun, outside);
 }
 
 void LiveDenoiser::loadRow(const DenoiseInput& input, std::uint32_t y) {

@@ -9,6 +9,7 @@ namespace rt::image {
 inline constexpr int kLiveFeatures = 7; // albedo, normal, depth
 // Of each row of a plane, at both ends: what no pixel of the image is. Tones there are like none of any pixel.
 inline constexpr int kLiveMargin = shared::kLiveReach << (shared::kLiveLevels - 1);
+inline constexpr std::size_t kLiveOverrun = 8; // floats that may be read behind the end of a plane
 inline constexpr float kLiveOutside = 1.0e6f;
 
 // What is filtered by the weights of one half: the other half's radiance, so that noise does not choose its own

@@ -4,27 +4,31 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "Common/Image/Denoise/Float8.h"
 #include "Common/Image/Denoise/LiveKernel.h"
 
 namespace rt::image {
 namespace {
 
 constexpr int kLiveChunk = 64; // pixels at a time: their sums stay in the nearest cache
+static_assert(kLiveChunk % kLaneCount == 0);
 
 struct LiveSums {
     float radiance[3][kLiveChunk] = {}, tones[3][kLiveChunk] = {}, weights[kLiveChunk] = {}, variance[kLiveChunk] = {};
 };
 
-// The squared differences of features between pixels of the chunk and those `offset` floats further.
+// The squared differences of features between pixels of the chunk and those `offset` floats further; up to
+// kLaneCount - 1 of them lie behind the row.
 RT_CALL void measureFeatures(const LiveRow& row, std::ptrdiff_t first, std::ptrdiff_t offset, int count,
-                             float* __restrict squared) {
-    for (int i = 0; i < count; ++i) squared[i] = 0;
-    for (int feature = 0; feature < row.featureCount; ++feature) {
-        const float *here = row.features[feature] + first, *there = here + offset;
-        for (int i = 0; i < count; ++i) {
-            const float difference = here[i] - there[i];
-            squared[i] += difference * difference;
+                             float* squared) {
+    for (int i = 0; i < count; i += kLaneCount) {
+        Float8 sum = broadcast(0);
+        for (int feature = 0; feature < row.featureCount; ++feature) {
+            const float* here = row.features[feature] + first + i;
+            const Float8 difference = load(here) - load(here + offset);
+            sum = multiplyAdd(difference, difference, sum);
         }
+        store(squared + i, sum);
     }
 }
 
