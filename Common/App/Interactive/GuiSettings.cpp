@@ -109,10 +109,10 @@ void forEachToggle(const Visit& visit, Settings& settings) {
     visit("show_comparison", settings.showComparison);
     visit("show_statistics", settings.showStatistics);
     visit("auto_exposure", settings.autoExposure);
-    visit("denoise", settings.denoise);
     visit("reload_scenes", settings.reloadScenes);
     visit("saw_first_steps", settings.sawFirstSteps);
     visit("ray_tracing", settings.rayTracing);
+    visit("denoise", settings.denoise);
 }
 
 } // namespace

@@ -40,11 +40,9 @@ struct GuiSettings {
     bool showComparison = false;
     bool showStatistics = true;
     std::map<std::string, bool>
-        openPanels;            // whether each is folded out, by its id; others are as the table of panels says
-    float exposure = 0;        // stops
-    bool autoExposure = false; // on top of what suits the picture
-    bool denoise = true;       // pictures with less noise, while they converge and after
-    SaveChoice saveChoice = SaveChoice::Seen;
+        openPanels;                     // whether each is folded out, by its id; others are as the table of panels says
+    float exposure = 0;                 // stops
+    bool autoExposure = false;          // on top of what suits the picture
     Tonemap tonemap = Tonemap::Neutral; // colours below white stay what they are
     bool reloadScenes = true;           // when their files change
     bool sawFirstSteps = false;         // the hint of the first run
@@ -54,6 +52,8 @@ struct GuiSettings {
     RenderRequest request;
     bool rayTracing = true; // of ray-tracing-gpu; off: its preview
     EngineChoice engine;
+    bool denoise = true; // pictures with less noise, while they converge and after
+    SaveChoice saveChoice = SaveChoice::Seen;
     bool operator==(const GuiSettings&) const = default;
 
     void addRecent(const std::string& file);

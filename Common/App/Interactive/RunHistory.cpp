@@ -70,10 +70,10 @@ void forEachLaterField(Record&& r, const Visit& visit) {
     visit("/russian_roulette", "russian_roulette", r.russianRoulette);
     visit("/one_sided_lights", "one_sided_lights", r.oneSidedLights);
     visit("/adaptive", "adaptive", r.adaptive);
+    visit("/replicates", "replicates", r.replicates);
     visit("/specular_connections", "specular_connections", r.specularConnections);
     visit("/edge_rays", "edge_rays", r.edgeRays);
     visit("/path_reuse", "path_reuse", r.pathReuse);
-    visit("/replicates", "replicates", r.replicates);
 }
 
 // Likewise, but no part of the work.
@@ -88,10 +88,10 @@ RunRecord fromJson(const nlohmann::json& json) {
     forEachLaterField(r, [&](const char* place, const char*, std::string& value) {
         value = json.value(nlohmann::json::json_pointer(place), "");
     });
+    if (r.replicates.empty()) r.replicates = RunRecord().replicates;
     if (r.specularConnections.empty()) r.specularConnections = nameOf(kSpecularConnections, false);
     if (r.edgeRays.empty()) r.edgeRays = nameOf(kEdgeRays, false);
     if (r.pathReuse.empty()) r.pathReuse = nameOf(kPathReuse, PathReuse::Off);
-    if (r.replicates.empty()) r.replicates = RunRecord().replicates;
     r.referenceError = json.value(kReferenceError, 0.0);
     r.isSoftware = json.value(kSoftware, false);
     for (const nlohmann::json& point : json.at("curve")) r.curve.push_back({point.at(0), point.at(1)});
@@ -177,11 +177,11 @@ std::vector<WorkField> workOf(const RunRecord& r) {
             {"Triangle lights", r.triangleLight},
             {"Roulette", r.russianRoulette},
             {"One-sided", r.oneSidedLights, true, true},
+            {"Replicates", r.replicates},
             {"Adaptive", r.adaptive},
             {"Glass connections", r.specularConnections},
             {"Edge rays", r.edgeRays},
-            {"Path reuse", r.pathReuse},
-            {"Replicates", r.replicates}};
+            {"Path reuse", r.pathReuse}};
 }
 
 bool isSameWork(const RunRecord& a, const RunRecord& b) {

@@ -18,12 +18,12 @@ struct RunRecord {
     std::uint64_t spp = 0; // samples that every pixel has
     double loadSeconds = 0, buildSeconds = 0, pipelineSeconds = 0, renderSeconds = 0;
     double samplesPerSecond = 0, raysPerSecond = 0;
+    std::string replicates = "1"; // what earlier programs did not write, as they had seldom more
     // What else the work depends on, as the flags take it. Empty in records of programs that did not write it yet; but
     // those had no connections, split no rays and shared no paths: they read as "off".
     std::string sceneHash, camera; // 16 hexadecimal digits; JSON as a window copies it
     std::string lightSelection, sphereLight, quadLight, triangleLight, russianRoulette, oneSidedLights, adaptive,
         specularConnections, edgeRays, pathReuse;
-    std::string replicates = "1"; // what earlier programs did not write, as they had seldom more
     double relmse = 0;
     bool isSoftware = false;   // the device is a driver that works on the processor
     bool hasReference = false; // relmse is against a reference; otherwise the film's own estimate
