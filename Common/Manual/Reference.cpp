@@ -1,5 +1,8 @@
 #include "Common/Manual/Reference.h"
 
+#include <string>
+#include <vector>
+
 namespace rt::manual {
 namespace {
 

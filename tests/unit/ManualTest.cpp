@@ -1,7 +1,7 @@
 // One table: what the programs take is what their help, man pages, completions and reference tell.
-#include <algorithm>
+#include <cstddef>
+#include <exception>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <sstream>
 #include <string>

@@ -1,7 +1,8 @@
 #include "Common/Tools/Image/ImageArguments.h"
 
 #include <algorithm>
-#include <string_view>
+#include <cstddef>
+#include <iterator>
 
 #include <CLI/CLI.hpp>
 
