@@ -129,7 +129,7 @@ for program in cpu gpu; do
             ((colours < 60000)) || break
         done
         kill %2; wait %2 || true
-        kill %1
+        kill %1; wait %1 || true # it takes its lock away
         ((colours >= 60000))"
     cp "$system/packages/window-$program.xwd" "$folder/" 2>/dev/null || true
 done
