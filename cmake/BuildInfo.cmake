@@ -36,5 +36,6 @@ function(rt_add_build_info target)
     add_dependencies(${target} rt-build-facts)
     target_include_directories(${target} PRIVATE ${folder})
     # Each commit compiles this alone.
-    set_source_files_properties(${PROJECT_SOURCE_DIR}/Common/Core/BuildInfo.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/Common/Core/BuildInfo.cpp PROPERTIES
+                                SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()

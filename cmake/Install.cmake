@@ -7,7 +7,7 @@ set(RT_PRIVATE_LIBRARIES lib/ray-tracing-twins) # of these programs alone
 
 # Libraries that come along in an archive of one folder: those of the system that every desktop has, and the loaders of
 # graphics drivers, stay the system's.
-set(left_out "^(ld-linux|lib(c|m|dl|rt|pthread|gcc_s|stdc\\+\\+|vulkan|GL|EGL|drm|gbm|xkbcommon)[.-]|lib(X|xcb|wayland))"
+set(left_out "^(ld-linux|lib(c|m|dl|rt|pthread|gcc_s|stdc\\+\\+|vulkan|GL|EGL|drm|gbm|xkbcommon)[.-])" "^lib(X|xcb|wayland)"
              "^(api-ms-|ext-ms-)")
 set(installed "")
 foreach(program IN LISTS RT_PROGRAMS)
@@ -31,7 +31,8 @@ if(TARGET ray-tracing-mpi)
     install(TARGETS ray-tracing-mpi LIBRARY DESTINATION ${RT_PRIVATE_LIBRARIES} COMPONENT programs)
 endif()
 if(dependencies)
-    install(RUNTIME_DEPENDENCY_SET rt-libraries PRE_EXCLUDE_REGEXES ${left_out} POST_EXCLUDE_REGEXES ".*system32/.*\\.dll"
+    install(RUNTIME_DEPENDENCY_SET rt-libraries PRE_EXCLUDE_REGEXES ${left_out}
+            POST_EXCLUDE_REGEXES ".*system32/.*\\.dll"
             LIBRARY DESTINATION ${RT_PRIVATE_LIBRARIES} COMPONENT libraries EXCLUDE_FROM_ALL
             RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT libraries EXCLUDE_FROM_ALL)
     install(SCRIPT cmake/packages/Licenses.cmake COMPONENT libraries EXCLUDE_FROM_ALL)
@@ -42,8 +43,8 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/ray-tracing-twins COM
 
 if(UNIX AND NOT APPLE)
     set(desktop ${PROJECT_SOURCE_DIR}/Assets/desktop)
-    install(FILES ${desktop}/ray-tracing-cpu.desktop ${desktop}/ray-tracing-gpu.desktop ${desktop}/ray-tracing-open.desktop
-            DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT programs)
+    install(FILES ${desktop}/ray-tracing-cpu.desktop ${desktop}/ray-tracing-gpu.desktop
+                  ${desktop}/ray-tracing-open.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT programs)
     install(FILES ${desktop}/org.ray_tracing_twins.RayTracingTwins.metainfo.xml
             DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo COMPONENT programs)
     install(FILES ${desktop}/ray-tracing-twins.mime.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages

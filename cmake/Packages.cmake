@@ -1,5 +1,5 @@
-# What cpack makes of the install rules; ./build.sh package runs it. There is no package of headers and libraries: the libraries
-# are linked into the programs and promise nobody an interface.
+# What cpack makes of the install rules; ./build.sh package runs it. There is no package of headers and
+# libraries: the libraries are linked into the programs and promise nobody an interface.
 set(CPACK_PACKAGE_NAME ray-tracing-twins)
 set(CPACK_PACKAGE_VENDOR "The Ray Tracing Twins authors")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "interactive path tracers on the CPU and on the GPU")

@@ -1,5 +1,6 @@
-# Writes the header RT_HEADER with RT_FEATURES, RT_COMPILERS and the commit of the sources in RT_ROOT: "1a2b3c4d5e6f", with
-# "+changes" where files differ from it; empty where they are no checkout. Nothing is written when nothing has changed.
+# Writes the header RT_HEADER with RT_FEATURES, RT_COMPILERS and the commit of the sources in RT_ROOT: "1a2b3c4d5e6f",
+# with "+changes" where files differ from it; empty where they are no checkout. Nothing is written when nothing has
+# changed.
 cmake_minimum_required(VERSION 3.25)
 set(commit "")
 if(RT_GIT AND EXISTS ${RT_ROOT}/.git)

@@ -1,5 +1,5 @@
-# What cmake --install puts into an empty root runs from there: it finds its assets, whatever the working directory is, and
-# needs nothing of the folders that it was built in.
+# What cmake --install puts into an empty root runs from there: it finds its assets, whatever the working directory
+# is, and needs nothing of the folders that it was built in.
 #   cmake -DBUILD=... -DCONFIG=... -DSCRATCH=... -P Install.cmake
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${SCRATCH})
@@ -15,7 +15,8 @@ endforeach()
 # Renders a scene file of the assets to `picture`.
 function(render picture)
     execute_process(COMMAND ${CMAKE_COMMAND} -E env --unset=RT_ASSETS ${ARGN}
-                            ${root}/bin/ray-tracing-cpu --no-config -q --scene irradiance/quad.json --width 32 --spp 4 -o ${picture}
+                            ${root}/bin/ray-tracing-cpu --no-config -q --scene irradiance/quad.json --width 32 --spp 4
+                            -o ${picture}
                     WORKING_DIRECTORY ${SCRATCH} RESULT_VARIABLE result ERROR_VARIABLE error)
     set(result ${result} PARENT_SCOPE)
     set(error "${error}" PARENT_SCOPE)

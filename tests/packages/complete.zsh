@@ -14,7 +14,8 @@ drain() {
     done
     print -r -- $all
 }
-zpty -w shell "PS1= PS2= ; unsetopt zle_bracketed_paste; fpath=($folder \$fpath); autoload -Uz compinit; compinit -u -D; stty -echo"
+zpty -w shell "PS1= PS2= ; unsetopt zle_bracketed_paste"
+zpty -w shell "fpath=($folder \$fpath); autoload -Uz compinit; compinit -u -D; stty -echo"
 zpty -w shell 'zstyle ":completion:*" list-grouped false; zstyle ":completion:*" insert-tab false
 compadd() {
     local -a hits

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What a desktop and a shell take from the programs is well-formed: completions parse and complete, man pages render without
-# warnings, desktop entries, AppStream data and MIME types validate.
+# What a desktop and a shell take from the programs is well-formed: completions parse and complete, man pages render
+# without warnings, desktop entries, AppStream data and MIME types validate.
 #   tests/packages/desktop.sh MANUAL   the folder that rt-write-manual wrote
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -90,7 +90,8 @@ appstreamcli validate --no-net "$root"/Assets/desktop/*.metainfo.xml >"$scratch/
     complain "$(cat "$scratch/appstream")"
 mkdir -p "$scratch/mime/packages"
 cp "$root/Assets/desktop/ray-tracing-twins.mime.xml" "$scratch/mime/packages/"
-XDG_DATA_DIRS=$scratch PKGSYSTEM_ENABLE_FSYNC=0 update-mime-database "$scratch/mime" 2>"$scratch/warnings" || complain "MIME types are refused"
+XDG_DATA_DIRS=$scratch PKGSYSTEM_ENABLE_FSYNC=0 update-mime-database "$scratch/mime" 2>"$scratch/warnings" ||
+    complain "MIME types are refused"
 [[ ! -s $scratch/warnings ]] || complain "MIME types: $(cat "$scratch/warnings")"
 for type in application/x-ray-tracing-checkpoint application/x-ray-tracing-scene+json; do
     [[ -e $scratch/mime/$type.xml ]] || complain "there is no $type"

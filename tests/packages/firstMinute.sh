@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What ./build.sh says on a machine that lacks everything, before it does anything: tried with an apt, a dpkg and a cmake that only
-# tell what they are asked for.
+# What ./build.sh says on a machine that lacks everything, before it does anything: tried with an apt, a dpkg and a
+# cmake that only tell what they are asked for.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 scratch=$(mktemp -d)

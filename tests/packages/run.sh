@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Tries the packages that ./build.sh package made, in a bare system of a release: the archive of one folder runs where nothing
-# is installed; the .deb installs, renders on CPU and GPU, opens its windows, is upgraded, and leaves nothing when it is purged.
-#   tests/packages/run.sh FOLDER [RELEASE]   as root; RELEASE: the one that the packages were built on, which this machine's is
+# Tries the packages that ./build.sh package made, in a bare system of a release: the archive of one folder runs where
+# little is installed; the .deb installs, renders on CPU and GPU, opens its windows, is upgraded, and leaves nothing when it
+# is purged.
+#   tests/packages/run.sh FOLDER [RELEASE]   as root; RELEASE: that of this machine, which the packages were built on
 # The bare system is made once, in FOLDER/RELEASE.bare, and copied for each try. Pictures of the windows stay in FOLDER.
 # Prints a line for each thing tried. Exit code 0: all of them passed.
 set -euo pipefail
@@ -93,26 +94,29 @@ rm -rf "$system/opt/a folder"
 
 try "the package installs" "$install /packages/old.deb"
 backports=
-if run_in "$system" "! dpkg --compare-versions \$(apt-cache policy mesa-vulkan-drivers | awk '/Candidate/ { print \$2 }') ge 25" \
-    >/dev/null 2>&1; then
+candidate="apt-cache policy mesa-vulkan-drivers | awk '/Candidate/ { print \$2 }'"
+if run_in "$system" "dpkg --compare-versions \$($candidate) lt 25" >/dev/null 2>&1; then
     backports="-t $release-backports"
     sed -n "s/^\(deb [^ ]*\) $release main.*/\1 $release-backports main/p" "$system/etc/apt/sources.list" \
         >"$system/etc/apt/sources.list.d/backports.list"
 fi
-try "a driver and a screen install" "apt-get update && $install $backports mesa-vulkan-drivers && $install xvfb x11-apps"
+try "a driver and a screen install" "apt-get update
+    $install $backports mesa-vulkan-drivers && $install xvfb x11-apps"
 
 # Files of the system, without what apt and dpkg keep of their work, caches and what this try itself writes.
 list_files="find / -xdev \\( -path /proc -o -path /tmp -o -path /packages -o -path /var/lib/dpkg -o -path /var/lib/apt \
     -o -path /var/log -o -path /var/cache -o -path /root \\) -prune -o -print | sort"
 try "the package is purged" "dpkg --purge ray-tracing-twins && $list_files >/packages/before"
 try "the version before installs" "$install /packages/old.deb"
-try "it is upgraded" "$install /packages/new.deb && dpkg -s ray-tracing-twins | grep -v 'Version: 0.0.1' | grep '^Version: '"
+try "it is upgraded" "$install /packages/new.deb
+    dpkg -s ray-tracing-twins | grep -v 'Version: 0.0.1' | grep '^Version: '"
 
 try "CPU renders" "cd / && ray-tracing-cpu $render -o /tmp/cpu.pfm"
 try "GPU renders the same picture" "cd / && ray-tracing-gpu --list-devices && ray-tracing-gpu $render -o /tmp/gpu.pfm
     ray-tracing-image diff /tmp/cpu.pfm /tmp/gpu.pfm --metric relmse --max 0.01"
 try "the archive's picture is the package's" "cmp /tmp/archive.pfm /tmp/cpu.pfm"
-try "--version names the version" "ray-tracing-cpu --version; ray-tracing-cpu --version | grep -q \"\$(dpkg-query -W -f '\${Version}' ray-tracing-twins)\""
+try "--version names the version" "ray-tracing-cpu --version
+    ray-tracing-cpu --version | grep -q \"\$(dpkg-query -W -f '\${Version}' ray-tracing-twins)\""
 for program in cpu gpu; do
     # As the menu starts it. Widgets alone have a quarter as many colours as a picture must.
     try "the window of ray-tracing-$program opens" "
