@@ -153,6 +153,26 @@ TEST_F(InteractiveSessionTest, FilmsThatEndWhileTheCameraIsHeldAreNoRuns) {
     EXPECT_EQ(history.records().size(), 2u);
 }
 
+// The mouse counts as held until the frame in which its release has pressed the button is over.
+TEST_F(InteractiveSessionTest, ARenderThatTheMouseStopsIsARun) {
+    InteractiveSession::Setup s = setup(1u << 20);
+    RunHistory history({});
+    s.history = &history;
+    InteractiveSession session(s);
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.picture.spp > 0; }));
+    session.hold(true);
+    for (int slice = 0; slice < 3; ++slice) { // it is known before the next request comes
+        const std::uint64_t done = session.state().status.samplesDone;
+        ASSERT_TRUE(reaches(session, [done](const SessionState& state) { return state.status.samplesDone > done; }));
+    }
+    session.stop();
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.activity == Activity::Stopped; }));
+    EXPECT_EQ(history.records().size(), 0u);
+    session.hold(false);
+    EXPECT_TRUE(reaches(session, [](const SessionState& state) { return state.historySerial == 1; }));
+    EXPECT_EQ(history.records().size(), 1u);
+}
+
 TEST_F(InteractiveSessionTest, StopGivesUpTheFirstSceneToo) {
     InteractiveSession::Setup s = setup(4);
     s.makeEngine = [](const EngineChoice&) { return std::make_unique<BuildingEngine>(); };

@@ -296,7 +296,8 @@ void SessionThread::finish(StopReason reason) {
 }
 
 void SessionThread::recordWaiting() {
-    const bool isStillSeen = activity_ == Activity::Finished && !film_.isStale();
+    const bool hasEnded = activity_ == Activity::Finished || activity_ == Activity::Stopped;
+    const bool isStillSeen = hasEnded && !film_.isStale();
     if (std::exchange(waitsForRecord_, false) && isStillSeen && record())
         state_.update([](SessionState& state) { ++state.historySerial; });
 }
