@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Log.h"
 #include "Common/Core/Printable.h"
 
 namespace rt::image {
@@ -108,6 +109,13 @@ ExrChannels chooseExrChannels(const Imf::MultiPartInputFile& file, const std::st
     const ExrLayer first(file, 0, "");
     if (auto found = first.color()) return *found;
     if (auto found = first.luminance()) return *found;
+    for (const std::string& other : layers) {
+        const auto found = findLayer(file, other);
+        if (!found || found->kind == Kind::Other) continue;
+        logWarning(name + ": of several layers the first is read, " + printable(other, kMaxExrText) +
+                   " (it has: " + printable(listed(layers), kMaxExrText) + ")");
+        return *found;
+    }
     throw InputError(name + ": EXR file has neither channels R, G, B nor Y (it has: " +
                      listed(channelsOf(file.header(0))) + ")" + (layers.empty() ? "" : "; layers: " + listed(layers)));
 }

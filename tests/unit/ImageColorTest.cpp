@@ -134,6 +134,9 @@ TEST(ImageColor, LayersOfExr) {
     } catch (const InputError& e) {
         EXPECT_STREQ(e.what(), "a.exr: EXR file has no layer \"c\\n\" that is a picture (it has: a.b, depth)");
     }
+    const std::string without =
+        test::exrFile(image, {.channels = {"Z", "depth.Z", "l.R", "l.G", "l.B", "m.R", "m.G", "m.B"}});
+    EXPECT_EQ(decodedExr(without).data, (std::vector<float>{2, 3, 4})) << "the first that has colours";
     const Image first = colorPixel(1, 2, 3), second = colorPixel(4, 5, 6);
     EXPECT_EQ(decodedExr(test::exrFileOfParts({first, second}), "b").data, second.data) << "a part";
     EXPECT_THROW(decodeImage(std::as_bytes(std::span(bytes)), "a.hdr", "a"), InputError);
