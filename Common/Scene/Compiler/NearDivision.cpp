@@ -18,8 +18,9 @@ namespace rt::scene {
 
 namespace {
 
-constexpr double kPieceRatio = 8;       // of the pieces; less than kHugeRatio, so that few cases need pieces at all
-constexpr double kSmallestPiece = 1e-9; // of the largest extent: where the surface goes through the origin itself
+constexpr double kPieceRatio = 8; // of the pieces; less than kHugeRatio, so that few cases need pieces at all
+constexpr double kThroughOrigin =
+    1e10; // a surface of a larger ratio goes through the origin itself, and is none to see
 
 using Edge = std::pair<std::array<double, 3>, std::array<double, 3>>;
 
@@ -52,7 +53,8 @@ bool exceeds(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, doub
     const double squared = std::max({glm::dot(ab, ab), glm::dot(bc, bc), glm::dot(ca, ca)});
     if (!(glm::dot(a, a) < 4 * squared)) return false; // as nearly all triangles of a large mesh are
     if (doubleArea(shared::vec3(a), shared::vec3(b), shared::vec3(c)) == glm::dvec3(0)) return false; // to be dropped
-    return std::sqrt(squared) > ratio * distanceToTriangle(a, b, c);
+    const double extent = std::sqrt(squared), distance = distanceToTriangle(a, b, c);
+    return extent > ratio * distance && extent < kThroughOrigin * distance;
 }
 
 // Without coordinates the place in its triangle, as it is wound in the end, serves as such: what the pieces have to
@@ -83,12 +85,6 @@ class Divider {
     Divider(MeshData mesh, const Affine& map) : mesh_(std::move(mesh)), map_(map) {
         places_.reserve(mesh_.positions.size());
         for (const glm::dvec3& position : mesh_.positions) places_.push_back(map.point(position));
-        double largest = 0;
-        for (const glm::uvec3& t : mesh_.triangles) {
-            const double extent = longestEdge(places_[t.x], places_[t.y], places_[t.z]);
-            if (exceeds(places_[t.x], places_[t.y], places_[t.z], kHugeRatio)) largest = std::max(largest, extent);
-        }
-        smallest_ = kSmallestPiece * largest;
         for (const glm::uvec3& t : mesh_.triangles) keep(t);
         mesh_.triangles.clear();
     }
@@ -119,8 +115,7 @@ class Divider {
 
     void keep(const glm::uvec3& t) {
         const glm::dvec3 &a = places_[t.x], &b = places_[t.y], &c = places_[t.z];
-        const double extent = longestEdge(a, b, c);
-        pieces_.push_back({t, extent, extent > smallest_ && exceeds(a, b, c, kPieceRatio)});
+        pieces_.push_back({t, longestEdge(a, b, c), exceeds(a, b, c, kPieceRatio)});
     }
 
     // The longest edge of each piece that is still huge; false if none is.
@@ -180,7 +175,6 @@ class Divider {
     const Affine map_;
     std::vector<glm::dvec3> places_; // of the vertices, in the target space
     std::vector<Piece> pieces_;
-    double smallest_ = 0; // what extends no farther is not divided
     std::set<Edge> marked_;
     double shortestMarked_ = 0;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> midpoints_; // of this round
