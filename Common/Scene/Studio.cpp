@@ -37,7 +37,7 @@ constexpr SoftBox kBoxes[] = {{"studio key", {-0.8, 0.9, 0.7}, 2, 2, 2.7},
                               {"studio fill", {1, 0.3, 0.6}, 1.5, 2, 0.8},
                               {"studio rim", {0.4, 1, -0.9}, 2, 1.5, 2.5}};
 
-bool shines(const SceneDesc& scene, const std::string& name) {
+bool emitsWhite(const SceneDesc& scene, const std::string& name) {
     const auto material = scene.materials.find(name);
     if (material == scene.materials.end()) return false;
     const glm::dvec3& emission = material->second.emission;
@@ -54,14 +54,14 @@ struct LightTest {
     bool operator()(const SpotLightDesc&) const { return true; }
     bool operator()(const DirectionalLightDesc&) const { return true; }
     bool operator()(const MediumDesc&) const { return false; }
-    bool operator()(const InstanceDesc& instance) const { return shines(scene, instance.material); }
+    bool operator()(const InstanceDesc& instance) const { return emitsWhite(scene, instance.material); }
     bool operator()(const GroupDesc& group) const {
         return std::any_of(group.objects.begin(), group.objects.end(),
                            [this](const ObjectDesc& object) { return isLight(scene, object); });
     }
     template <class Surface>
     bool operator()(const Surface& surface) const {
-        return surface.light && shines(scene, surface.material);
+        return surface.light && emitsWhite(scene, surface.material);
     }
 };
 
@@ -110,8 +110,8 @@ std::string freeName(const std::map<std::string, Named>& taken, std::string name
 
 // What the studio is in proportion to: finite and not too small, whatever the bounds are, so that a scene file may have
 // all of it and it is not lost to rounding.
-struct Place {
-    explicit Place(const Bounds& bounds)
+struct StudioPlace {
+    explicit StudioPlace(const Bounds& bounds)
         : center(glm::clamp(bounds.center(), -kLargest / 2, kLargest / 2)),
           radius(bounds.empty()
                      ? 1
@@ -124,7 +124,7 @@ struct Place {
 };
 
 // Shines towards the middle of the model; from behind it is black.
-QuadDesc softBox(const SoftBox& box, const Place& place, const std::string& material) {
+QuadDesc softBox(const SoftBox& box, const StudioPlace& place, const std::string& material) {
     const glm::dvec3 towards = glm::normalize(box.towards);
     const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), towards));
     QuadDesc quad;
@@ -135,7 +135,7 @@ QuadDesc softBox(const SoftBox& box, const Place& place, const std::string& mate
     return quad;
 }
 
-QuadDesc floorQuad(const Place& place, const std::string& material) {
+QuadDesc floorQuad(const StudioPlace& place, const std::string& material) {
     const double half = kFloorHalf * place.radius;
     QuadDesc quad;
     quad.corner = {place.center.x - half, place.floor, place.center.z - half};
@@ -169,7 +169,7 @@ Bounds boundsOfMeshes(const SceneDesc& scene) {
 
 void addStudioIfUnlit(SceneDesc& scene, const Bounds& bounds) {
     if (bringsLight(scene)) return;
-    const Place place(bounds);
+    const StudioPlace place(bounds);
     scene.background = GradientBackground{glm::dvec3(2 * kHorizon - kZenith), glm::dvec3(kZenith)};
     std::vector<ObjectDesc> studio;
     for (const SoftBox& box : kBoxes) {

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Columns of the screen in A and in B, and a row, in the picture.
-constexpr int kLeft = 640, kRight = 1000, kRow = 450;
+constexpr int kInA = 640, kInB = 1000, kMiddleRow = 450;
 
 class PinnedPictureTest : public WindowTest {
   protected:
@@ -41,8 +41,8 @@ class PinnedPictureTest : public WindowTest {
     }
     static bool isRed(std::uint32_t color) { return (color >> 16) > 90 && (color >> 8 & 0xff) < 60; }
     static bool isGreen(std::uint32_t color) { return (color >> 16) < 60 && (color >> 8 & 0xff) > 90; }
-    std::uint32_t left() const { return screenshot().at(kLeft, kRow); }
-    std::uint32_t right() const { return screenshot().at(kRight, kRow); }
+    std::uint32_t left() const { return screenshot().at(kInA, kMiddleRow); }
+    std::uint32_t right() const { return screenshot().at(kInB, kMiddleRow); }
     // Too early where there is no picture yet.
     bool pin() {
         std::chrono::seconds patience(1); // longer each time, as the key undoes what is about to be seen
