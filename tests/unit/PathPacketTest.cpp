@@ -111,9 +111,8 @@ class OneByOne {
 
     vec3 traceEdgeRay(const Sampler& smp, uvec2 pixel, const PixelPart& part) {
         CameraSamples u = cameraSamples(kFeatureAll, smp);
-        u.pixel = placeInPart(part, u.pixel);
-        const Ray ray = cameraRay(kFeatureAll, context_.params, context_.camera, pixel, u);
-        PathState path = startEdgeRay(context_.params, part, ray, vec3(0.0f));
+        const CameraRole role = roleInPart(context_.params, part, true, u.pixel);
+        PathState path = startInRole(cameraRay(kFeatureAll, context_.params, context_.camera, pixel, u), role);
         ++counters.edge;
         for (bool goesOn = true; goesOn;) {
             TechniqueStep step = beginTechniqueStep();
