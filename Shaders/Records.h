@@ -3,6 +3,7 @@
 #ifndef RT_SHADERS_RECORDS_H
 #define RT_SHADERS_RECORDS_H
 #include "Common/Shared/Base/Elementary.h"
+#include "Common/Shared/Base/PathTypes.h"
 #include "Common/Shared/Base/SceneArrays.h"
 #include "Common/Shared/Base/Types.h"
 #include "Common/Shared/Shape/TreeRecords.h"

@@ -84,7 +84,7 @@ bool isIn(const Silhouettes& edges, std::uint32_t pixel) {
 }
 
 // What an error is worth: there is as much of it in as many rays.
-struct Effort {
+struct EdgeEffort {
     double error = 0;
     std::uint64_t rays = 0;
 
@@ -159,7 +159,7 @@ TEST(EdgeRays, ErrorsOfEdgesFall) {
         const auto errorOf = [&](bool edgeRays) {
             app::RenderSettings few = lampSettings(16);
             few.edgeRays = edgeRays;
-            Effort effort;
+            EdgeEffort effort;
             for (few.seed = 1; few.seed <= 16; ++few.seed) {
                 const image::Image picture = renderImage(*engine, *scene, few);
                 for (std::size_t i = 0; i < truth.data.size(); ++i)
@@ -227,7 +227,7 @@ TEST(EdgeRays, SpheresShowLights) {
         inSphere.parts.resize(kLampSide * kLampSide);
         addLightsInSpheres(*scene, camera, kLampSide, kLampSide, inSphere);
         ASSERT_GT(inSphere.count, 0u);
-        Effort without, with;
+        EdgeEffort without, with;
         const std::vector<double> before = variancesOf(false, without.rays), after = variancesOf(true, with.rays);
         for (const double variance : before) without.error += variance;
         for (const double variance : after) with.error += variance;
@@ -259,7 +259,7 @@ TEST(EdgeRays, BlurredMirrorsShowLights) {
             constexpr std::uint32_t kSeeds = 64;
             struct Noise {
                 double mean = 0, errorOfMean = 0;
-                Effort effort;
+                EdgeEffort effort;
             };
             const auto noiseOf = [&](bool edgeRays) {
                 app::RenderSettings settings = lampSettings(16);

@@ -1,17 +1,14 @@
 #include "Common/Scene/Compiler/PrimitiveSink.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include <glm/trigonometric.hpp>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
-#include "Common/Core/Parallel.h"
 #include "Common/Core/SystemMemory.h"
 #include "Common/Scene/Compiler/LightTable.h"
-#include "Common/Scene/Compiler/MeshOrder.h"
 #include "Common/Scene/Compiler/NearDivision.h"
 #include "Common/Scene/Compiler/Representable.h"
 #include "Common/Scene/Counted.h"
@@ -23,16 +20,6 @@ namespace rt::scene {
 namespace {
 
 constexpr double kMinRadius = 1e-9;
-constexpr std::size_t kChunk = 1u << 13;        // vertices or triangles that a thread converts at a time
-constexpr std::size_t kManyVertices = 1u << 18; // beside whose memory it is worth milliseconds to give some back
-
-// Tangents go with the surface; the bitangent turns over with a map that mirrors, as the winding does.
-shared::vec4 tangentOf(const glm::dvec4& authored, const Affine& map) {
-    const glm::dvec3 along = map.vector(glm::dvec3(authored));
-    if (!(glm::dot(along, along) > 0) || !representable(along)) return shared::vec4(0.0f);
-    const double sign = (authored.w < 0) != map.mirrors() ? -1 : 1;
-    return shared::vec4(glm::dvec4(glm::normalize(along), sign));
-}
 
 bool isExcluded(Part part, bool isShareable) {
     return part == Part::Shared ? !isShareable : part == Part::Rest && isShareable;
@@ -254,116 +241,6 @@ void PrimitiveSink::quad(const glm::dvec3& corner, const glm::dvec3& u, const gl
 void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at) {
     if (isExcluded(at.part, !emits(own))) return;
     surface(data, own, light, at, isInWorld());
-}
-
-void PrimitiveSink::surface(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at,
-                            bool mayBeDivided) {
-    const Affine map = at.outer * at.local;
-    std::vector<shared::vec3> positions;
-    resizeLarge(positions, data.positions.size());
-    parallelChunks(0, positions.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) positions[i] = shared::vec3(map.point(data.positions[i]));
-    });
-
-    const WoundTriangles triangles{data.triangles, map.mirrors()};
-    std::vector<std::uint8_t> isFlat(data.triangles.size());
-    std::atomic<bool> mustBeDivided = false;
-    parallelChunks(0, isFlat.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            interruptionPoint();
-            const glm::uvec3& t = data.triangles[i];
-            if (std::max({t.x, t.y, t.z}) >= positions.size())
-                throw InputError(out_.id + ": " + at.place + ": a triangle refers to vertex " +
-                                 std::to_string(std::max({t.x, t.y, t.z})) + " of " + std::to_string(positions.size()));
-            isFlat[i] = doubleArea(positions[t.x], positions[t.y], positions[t.z]) == glm::dvec3(0);
-            if (mayBeDivided && isHuge(positions[t.x], positions[t.y], positions[t.z])) mustBeDivided = true;
-        }
-    });
-    if (mustBeDivided) {
-        const bool showsImage = materials_.mayShowImage(at.material ? *at.material : own);
-        return surface(divideHugeTriangles(data, map, showsImage), own, light, at, false);
-    }
-    std::vector<std::uint32_t> order; // of those that are kept
-    reserveLarge(order, data.triangles.size());
-    for (std::uint32_t i = 0; i < data.triangles.size(); ++i)
-        if (!isFlat[i]) order.push_back(i);
-    release(isFlat);
-    dropped_.triangles += data.triangles.size() - order.size();
-    if (order.empty()) return;
-    orderAlongCurve(positions, triangles, order);
-    const auto giveBack = [&] {
-        if (data.positions.size() > kManyVertices) releaseFreedMemory();
-    };
-    giveBack();
-
-    shared::Mesh mesh{};
-    mesh.material = materials_.index(at.material ? *at.material : own);
-    mesh.firstTriangle = static_cast<std::uint32_t>(out_.triangles.size());
-    mesh.triangleCount = static_cast<std::uint32_t>(order.size());
-    mesh.firstVertex = static_cast<std::uint32_t>(out_.positions.size());
-    mesh.firstNormal = data.normals.empty() ? shared::kNone : static_cast<std::uint32_t>(out_.normals.size());
-    mesh.firstUv = data.uvs.empty() ? shared::kNone : static_cast<std::uint32_t>(out_.uvs.size());
-    mesh.firstUv2 = data.uvs2.empty() ? shared::kNone : 0u; // known when the first set is complete
-    mesh.firstColor = data.colors.empty() ? shared::kNone : static_cast<std::uint32_t>(out_.colors.size());
-    mesh.firstTangent = data.tangents.empty() ? shared::kNone : static_cast<std::uint32_t>(out_.tangents.size());
-    const bool hasLights = isLight(mesh.material, light);
-    mesh.firstLight = hasLights ? static_cast<std::uint32_t>(out_.lights.size()) : shared::kNone;
-    const glm::dmat3 normalMap = data.normals.empty() ? glm::dmat3(1) : glm::transpose(glm::inverse(map.linear));
-
-    // Vertices in the order of their first use: neighbours in space become neighbours in memory, unused ones vanish.
-    struct Use {
-        std::uint32_t vertex, triangle; // of the mesh as it comes, and of the scene
-    };
-    std::vector<Use> uses; // the first of each
-    reserveLarge(uses, positions.size());
-    std::vector<std::uint32_t> renamed;
-    resizeLarge(renamed, positions.size(), shared::kNone);
-    for (const std::uint32_t i : order) {
-        interruptionPoint();
-        const glm::uvec3 t = triangles[i];
-        for (int corner = 0; corner < 3; ++corner) {
-            std::uint32_t& name = renamed[t[corner]];
-            if (name != shared::kNone) continue;
-            name = mesh.firstVertex + static_cast<std::uint32_t>(uses.size());
-            uses.push_back({t[corner], static_cast<std::uint32_t>(out_.triangles.size())});
-        }
-        out_.triangles.emplace_back(renamed[t.x], renamed[t.y], renamed[t.z]);
-        out_.triangleMesh.push_back(static_cast<std::uint32_t>(out_.meshes.size()));
-        if (hasLights) {
-            shared::Light record = triangleLight(positions[t.x], positions[t.y], positions[t.z]);
-            record.triangle = static_cast<std::uint32_t>(out_.triangles.size() - 1);
-            appendLight(record, mesh.material);
-        }
-    }
-    release(order);
-    release(renamed);
-    giveBack();
-    const auto append = [&uses](auto& to, const auto& from, const auto& converted) {
-        if (from.empty()) return;
-        const std::size_t first = to.size();
-        to.resize(first + uses.size());
-        parallelChunks(0, uses.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-            interruptionPoint();
-            for (std::size_t i = begin; i < end; ++i) to[first + i] = converted(from[uses[i].vertex], uses[i].triangle);
-        });
-    };
-    const auto uvOf = [](const glm::dvec2& uv, std::uint32_t) { return shared::vec2(uv); };
-    append(out_.positions, positions, [](const shared::vec3& position, std::uint32_t) { return position; });
-    release(positions);
-    giveBack();
-    append(out_.uvs, data.uvs, uvOf);
-    if (!data.uvs2.empty()) mesh.firstUv2 = static_cast<std::uint32_t>(out_.uvs.size());
-    append(out_.uvs, data.uvs2, uvOf);
-    append(out_.colors, data.colors, [](const glm::dvec4& color, std::uint32_t) { return shared::vec4(color); });
-    append(out_.tangents, data.tangents, [&](const glm::dvec4& t, std::uint32_t) { return tangentOf(t, map); });
-    append(out_.normals, data.normals, [&](const glm::dvec3& authored, std::uint32_t triangle) {
-        const glm::dvec3 normal = normalMap * authored;
-        if (glm::dot(normal, normal) > 0 && representable(normal)) return shared::vec3(glm::normalize(normal));
-        const glm::uvec3 t = out_.triangles[triangle];
-        return shared::vec3(glm::normalize(doubleArea(out_.positions[t.x], out_.positions[t.y], out_.positions[t.z])));
-    });
-    for (std::size_t i = mesh.firstVertex; i < out_.positions.size(); ++i) bounds_.add(out_.positions[i]);
-    out_.meshes.push_back(mesh);
 }
 
 // ---- punctual lights -----------------------------------------------------------------------------------------------

@@ -10,6 +10,7 @@
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Scene/Compiler/Bounds.h"
 #include "Common/Scene/Compiler/MaterialTable.h"
+#include "Common/Scene/Compiler/MeshOrder.h"
 
 namespace rt::scene {
 
@@ -72,6 +73,13 @@ class PrimitiveSink {
     void quad(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, const MaterialDesc& material,
               bool light, const Affine& map);
     void surface(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at, bool mayBeDivided);
+    struct VertexUse;
+    shared::Mesh meshRecord(const MeshData& data, const MaterialDesc& material, std::size_t triangleCount,
+                            bool light) const;
+    std::vector<VertexUse> appendTriangles(const shared::Mesh& mesh, const std::vector<shared::vec3>& positions,
+                                           const WoundTriangles& triangles, const std::vector<std::uint32_t>& order);
+    void appendAttributes(shared::Mesh& mesh, const MeshData& data, const Affine& map,
+                          const std::vector<VertexUse>& uses);
     const MaterialDesc& materialOf(const std::string& name, const Placement& at) const;
     bool isInWorld() const { return out_.geometries.empty(); } // what is filled now: the geometry without instances
     bool isLight(std::uint32_t material, bool wanted) const;

@@ -2,6 +2,7 @@
 #ifndef RT_SHARED_LIGHT_SELECTION_H
 #define RT_SHARED_LIGHT_SELECTION_H
 #include "Common/Shared/Base/Features.h"
+#include "Common/Shared/Base/PathTypes.h"
 #include "Common/Shared/Base/Random.h"
 #include "Common/Shared/Base/SceneAccess.h"
 #include "Common/Shared/Light/LightContribution.h"

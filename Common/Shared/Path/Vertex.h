@@ -2,6 +2,7 @@
 #ifndef RT_SHARED_VERTEX_H
 #define RT_SHARED_VERTEX_H
 #include "Common/Shared/Base/Features.h"
+#include "Common/Shared/Base/PathTypes.h"
 #include "Common/Shared/Material/Bsdf.h"
 #include "Common/Shared/Material/PrincipledSurface.h"
 #include "Common/Shared/Shape/Surface.h"

@@ -1,0 +1,187 @@
+// How PrimitiveSink appends surfaces of meshes: triangles without area are dropped, the others sorted along a curve, and
+// vertices stand in the order of their first use.
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
+#include "Common/Core/Parallel.h"
+#include "Common/Core/SystemMemory.h"
+#include "Common/Scene/Compiler/LightTable.h"
+#include "Common/Scene/Compiler/NearDivision.h"
+#include "Common/Scene/Compiler/PrimitiveSink.h"
+#include "Common/Scene/Compiler/Representable.h"
+
+namespace rt::scene {
+
+namespace {
+
+constexpr std::size_t kChunk = 1u << 13;        // vertices or triangles that a thread converts at a time
+constexpr std::size_t kManyVertices = 1u << 18; // beside whose memory it is worth milliseconds to give some back
+
+// Tangents go with the surface; the bitangent turns over with a map that mirrors, as the winding does.
+shared::vec4 tangentOf(const glm::dvec4& authored, const Affine& map) {
+    const glm::dvec3 along = map.vector(glm::dvec3(authored));
+    if (!(glm::dot(along, along) > 0) || !representable(along)) return shared::vec4(0.0f);
+    const double sign = (authored.w < 0) != map.mirrors() ? -1 : 1;
+    return shared::vec4(glm::dvec4(glm::normalize(along), sign));
+}
+
+std::vector<shared::vec3> mapped(const std::vector<glm::dvec3>& positions, const Affine& map) {
+    std::vector<shared::vec3> result;
+    resizeLarge(result, positions.size());
+    parallelChunks(0, result.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) result[i] = shared::vec3(map.point(positions[i]));
+    });
+    return result;
+}
+
+struct KeptTriangles {
+    std::vector<std::uint32_t> numbers; // of those that have an area
+    bool anyIsHuge;
+};
+
+// `whose`: begins the message about a triangle of a vertex that there is not.
+KeptTriangles keptTriangles(const std::vector<shared::vec3>& positions, const std::vector<glm::uvec3>& triangles,
+                            const std::string& whose) {
+    std::vector<std::uint8_t> isFlat(triangles.size());
+    std::atomic<bool> anyIsHuge = false;
+    parallelChunks(0, isFlat.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            interruptionPoint();
+            const glm::uvec3& t = triangles[i];
+            if (std::max({t.x, t.y, t.z}) >= positions.size())
+                throw InputError(whose + ": a triangle refers to vertex " + std::to_string(std::max({t.x, t.y, t.z})) +
+                                 " of " + std::to_string(positions.size()));
+            isFlat[i] = doubleArea(positions[t.x], positions[t.y], positions[t.z]) == glm::dvec3(0);
+            if (isHuge(positions[t.x], positions[t.y], positions[t.z])) anyIsHuge = true;
+        }
+    });
+    KeptTriangles kept{{}, anyIsHuge};
+    reserveLarge(kept.numbers, triangles.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i)
+        if (!isFlat[i]) kept.numbers.push_back(i);
+    return kept;
+}
+
+template <class Values>
+std::uint32_t firstOf(const Values& authored, std::size_t already) {
+    return authored.empty() ? shared::kNone : static_cast<std::uint32_t>(already);
+}
+
+} // namespace
+
+// The first use of a vertex: by a triangle of the scene, of a vertex of the mesh as it comes.
+struct PrimitiveSink::VertexUse {
+    std::uint32_t vertex, triangle;
+};
+
+void PrimitiveSink::surface(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at,
+                            bool mayBeDivided) {
+    const Affine map = at.outer * at.local;
+    const MaterialDesc& material = at.material ? *at.material : own;
+    const auto giveBack = [&] {
+        if (data.positions.size() > kManyVertices) releaseFreedMemory();
+    };
+    std::vector<shared::vec3> positions = mapped(data.positions, map);
+    KeptTriangles kept = keptTriangles(positions, data.triangles, out_.id + ": " + at.place);
+    if (mayBeDivided && kept.anyIsHuge)
+        return surface(divideHugeTriangles(data, map, materials_.mayShowImage(material)), own, light, at, false);
+    dropped_.triangles += data.triangles.size() - kept.numbers.size();
+    if (kept.numbers.empty()) return;
+    const WoundTriangles triangles{data.triangles, map.mirrors()};
+    orderAlongCurve(positions, triangles, kept.numbers);
+    giveBack();
+
+    shared::Mesh mesh = meshRecord(data, material, kept.numbers.size(), light);
+    const std::vector<VertexUse> uses = appendTriangles(mesh, positions, triangles, kept.numbers);
+    release(kept.numbers);
+    giveBack();
+    for (const VertexUse& use : uses) {
+        out_.positions.push_back(positions[use.vertex]);
+        bounds_.add(out_.positions.back());
+    }
+    release(positions);
+    giveBack();
+    appendAttributes(mesh, data, map, uses);
+    out_.meshes.push_back(mesh);
+}
+
+shared::Mesh PrimitiveSink::meshRecord(const MeshData& data, const MaterialDesc& material, std::size_t triangleCount,
+                                       bool light) const {
+    shared::Mesh mesh{};
+    mesh.material = materials_.index(material);
+    mesh.firstTriangle = static_cast<std::uint32_t>(out_.triangles.size());
+    mesh.triangleCount = static_cast<std::uint32_t>(triangleCount);
+    mesh.firstVertex = static_cast<std::uint32_t>(out_.positions.size());
+    mesh.firstNormal = firstOf(data.normals, out_.normals.size());
+    mesh.firstUv = firstOf(data.uvs, out_.uvs.size());
+    mesh.firstUv2 = firstOf(data.uvs2, 0); // known when the first set is complete
+    mesh.firstColor = firstOf(data.colors, out_.colors.size());
+    mesh.firstTangent = firstOf(data.tangents, out_.tangents.size());
+    mesh.firstLight = isLight(mesh.material, light) ? static_cast<std::uint32_t>(out_.lights.size()) : shared::kNone;
+    return mesh;
+}
+
+// Vertices in the order of their first use: neighbours in space become neighbours in memory, unused ones vanish.
+std::vector<PrimitiveSink::VertexUse> PrimitiveSink::appendTriangles(const shared::Mesh& mesh,
+                                                                     const std::vector<shared::vec3>& positions,
+                                                                     const WoundTriangles& triangles,
+                                                                     const std::vector<std::uint32_t>& order) {
+    std::vector<VertexUse> uses;
+    reserveLarge(uses, positions.size());
+    std::vector<std::uint32_t> renamed;
+    resizeLarge(renamed, positions.size(), shared::kNone);
+    for (const std::uint32_t i : order) {
+        interruptionPoint();
+        const glm::uvec3 t = triangles[i];
+        for (int corner = 0; corner < 3; ++corner) {
+            std::uint32_t& name = renamed[t[corner]];
+            if (name != shared::kNone) continue;
+            name = mesh.firstVertex + static_cast<std::uint32_t>(uses.size());
+            uses.push_back({t[corner], static_cast<std::uint32_t>(out_.triangles.size())});
+        }
+        out_.triangles.emplace_back(renamed[t.x], renamed[t.y], renamed[t.z]);
+        out_.triangleMesh.push_back(static_cast<std::uint32_t>(out_.meshes.size()));
+        if (mesh.firstLight != shared::kNone) {
+            shared::Light record = triangleLight(positions[t.x], positions[t.y], positions[t.z]);
+            record.triangle = static_cast<std::uint32_t>(out_.triangles.size() - 1);
+            appendLight(record, mesh.material);
+        }
+    }
+    return uses;
+}
+
+void PrimitiveSink::appendAttributes(shared::Mesh& mesh, const MeshData& data, const Affine& map,
+                                     const std::vector<VertexUse>& uses) {
+    const auto append = [&uses](auto& to, const auto& from, const auto& converted) {
+        if (from.empty()) return;
+        const std::size_t first = to.size();
+        to.resize(first + uses.size());
+        parallelChunks(0, uses.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+            interruptionPoint();
+            for (std::size_t i = begin; i < end; ++i) to[first + i] = converted(from[uses[i].vertex], uses[i].triangle);
+        });
+    };
+    const auto uvOf = [](const glm::dvec2& uv, std::uint32_t) { return shared::vec2(uv); };
+    append(out_.uvs, data.uvs, uvOf);
+    if (!data.uvs2.empty()) mesh.firstUv2 = static_cast<std::uint32_t>(out_.uvs.size());
+    append(out_.uvs, data.uvs2, uvOf);
+    append(out_.colors, data.colors, [](const glm::dvec4& color, std::uint32_t) { return shared::vec4(color); });
+    append(out_.tangents, data.tangents, [&](const glm::dvec4& t, std::uint32_t) { return tangentOf(t, map); });
+    const glm::dmat3 normalMap = data.normals.empty() ? glm::dmat3(1) : glm::transpose(glm::inverse(map.linear));
+    append(out_.normals, data.normals, [&](const glm::dvec3& authored, std::uint32_t triangle) {
+        const glm::dvec3 normal = normalMap * authored;
+        if (glm::dot(normal, normal) > 0 && representable(normal)) return shared::vec3(glm::normalize(normal));
+        const glm::uvec3 t = out_.triangles[triangle];
+        return shared::vec3(glm::normalize(doubleArea(out_.positions[t.x], out_.positions[t.y], out_.positions[t.z])));
+    });
+}
+
+} // namespace rt::scene
