@@ -11,15 +11,12 @@
 #include "Common/Core/Parallel.h"
 #include "Common/Image/Denoise/DenoiseKernel.h"
 #include "Common/Image/Denoise/FeatureSpace.h"
+#include "Common/Shared/Denoise/DenoiseFit.h"
 
 namespace rt::image {
 namespace {
 
 using shared::kDenoiseBandwidths;
-
-constexpr float kFeatureScale = 4.0f; // of albedo and of depth: a difference of a quarter is as much as one of 1
-constexpr float kNormalScale = 2.0f;
-constexpr float kMaxFeature = 2.0f; // before it is scaled
 
 // The best that this processor runs, of those that the program was built with.
 DenoiseKernel bestKernel() {
@@ -41,30 +38,15 @@ DenoiseKernel bestKernel() {
 
 // ---- features ------------------------------------------------------------------------------------------------------
 
-// What nearly all pixels that see something are nearer than.
-float usualDepth(const Image& depth) {
-    std::vector<float> seen;
-    for (const float d : depth.data)
-        if (std::isfinite(d) && d > 0) seen.push_back(d);
-    if (seen.empty()) return 1;
-    const auto at = seen.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(seen.size() - 1));
-    std::nth_element(seen.begin(), at, seen.end());
-    return *at;
-}
-
 std::vector<SurfaceFeatures> surfaceFeatures(const DenoiseInput& input, std::size_t pixels) {
     std::vector<SurfaceFeatures> features(pixels);
-    const float depthUnit = input.depth.data.empty() ? 1 : usualDepth(input.depth);
-    const auto bounded = [](float value, float minimum) {
-        return std::isfinite(value) ? std::clamp(value, minimum, kMaxFeature) : 0.0f;
-    };
+    const float depthUnit = usualDepth(input.depth);
     for (std::size_t i = 0; i < pixels; ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
-            if (!input.albedo.data.empty()) features[i][c] = kFeatureScale * bounded(input.albedo.data[3 * i + c], 0);
-            if (!input.normal.data.empty())
-                features[i][3 + c] = kNormalScale * bounded(input.normal.data[3 * i + c], -kMaxFeature);
+            if (!input.albedo.data.empty()) features[i][c] = shared::denoiseAlbedo(input.albedo.data[3 * i + c]);
+            if (!input.normal.data.empty()) features[i][3 + c] = shared::denoiseNormal(input.normal.data[3 * i + c]);
         }
-        if (!input.depth.data.empty()) features[i][6] = kFeatureScale * bounded(input.depth.data[i] / depthUnit, 0);
+        if (!input.depth.data.empty()) features[i][6] = shared::denoiseDepth(input.depth.data[i], depthUnit);
     }
     return features;
 }
@@ -190,6 +172,16 @@ class TileFilter {
 };
 
 } // namespace
+
+float usualDepth(const Image& depth) {
+    std::vector<float> seen;
+    for (const float d : depth.data)
+        if (std::isfinite(d) && d > 0) seen.push_back(d);
+    if (seen.empty()) return 1;
+    const auto at = seen.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(seen.size() - 1));
+    std::nth_element(seen.begin(), at, seen.end());
+    return *at;
+}
 
 void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads) {
     const std::size_t width = halves.variance.width(), height = halves.variance.height();

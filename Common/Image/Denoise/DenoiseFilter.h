@@ -25,6 +25,9 @@ struct Halves {
     std::uint64_t samplesOfHalf = 0; // of a pixel
 };
 
+// What nearly all pixels that see something are nearer than; 1 where there are none.
+float usualDepth(const Image& depth);
+
 // Fills what is filtered, and the factors.
 void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads);
 

@@ -3,19 +3,18 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "Common/Shared/Denoise/DenoiseFit.h"
 #include "Common/Shared/Denoise/DenoiseWeights.h"
 
 namespace rt::image {
 
-inline constexpr int kDenoiseTile = 32;                                                   // pixels a side
+using shared::kDenoiseSurfaceFeatures, shared::kDenoiseTile;
 inline constexpr int kDenoiseMargin = shared::kDenoiseReach + shared::kDenoisePatchReach; // around a tile
 inline constexpr int kDenoiseRows = kDenoiseTile + 2 * kDenoiseMargin;                    // of a plane
 inline constexpr int kDenoisePitch = kDenoiseRows + 10;                                   // floats a row
 inline constexpr int kDenoisePlane = kDenoiseRows * kDenoisePitch;                        // floats
 inline constexpr int kDenoiseOrigin = kDenoiseMargin * kDenoisePitch + kDenoiseMargin;    // tile's first pixel
 inline constexpr int kDenoiseOffsets = (2 * shared::kDenoiseReach + 1) * (2 * shared::kDenoiseReach + 1);
-// At most: more were measured to gain 1 % and to cost a third of the time.
-inline constexpr int kDenoiseSurfaceFeatures = 4;
 static_assert(kDenoisePitch % 8 == 0);
 
 // One tile of one half. A plane has kDenoisePlane values: the tile with its margin, row by row, and eight floats more

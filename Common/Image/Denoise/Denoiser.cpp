@@ -9,15 +9,14 @@
 #include "Common/Image/Denoise/DenoiseFilter.h"
 #include "Common/Image/Denoise/Planes.h"
 #include "Common/Image/Metrics.h"
+#include "Common/Shared/Denoise/DenoiseFit.h"
 
 namespace rt::image {
 namespace {
 
 using shared::kDenoiseBandwidths;
 
-constexpr std::uint64_t kRawSamples = 32; // of each half, from which on a pixel may stay as it is
-constexpr int kBlendReach = 1;            // pixels
-constexpr double kFormulaError = 0.1;     // of the formula for the error, beside its noise
+constexpr double kFormulaError = 0.1; // of the formula for the error, beside its noise
 
 Half makeHalf(const Image& image, std::size_t threads) {
     Half half;
@@ -26,7 +25,7 @@ Half makeHalf(const Image& image, std::size_t threads) {
         parallelFor(threads, image.height, [&](std::size_t y) {
             for (std::size_t x = 0; x < image.width; ++x) {
                 const float value = image.data[(y * image.width + x) * 3 + c];
-                const float radiance = std::isfinite(value) ? std::min(value, shared::kDenoiseMaxRadiance) : 0.0f;
+                const float radiance = shared::denoiseRadiance(value);
                 half.radiance[c].row(y)[x] = radiance;
                 half.tones[c].row(y)[x] = shared::denoiseTone(radiance);
             }
@@ -72,7 +71,7 @@ using Choice = std::array<Plane, kDenoiseCandidates>; // the weight of each cand
 Choice choose(const Halves& halves, std::size_t threads) {
     const std::size_t width = halves.variance.width(), height = halves.variance.height();
     // Of few samples the halves may both have missed what there is: what is black twice then looks free of noise.
-    const std::size_t candidates = halves.samplesOfHalf >= kRawSamples ? kDenoiseCandidates : kRaw;
+    const std::size_t candidates = halves.samplesOfHalf >= shared::kDenoiseRawSamples ? kDenoiseCandidates : kRaw;
     Choice errors, chosen;
     for (std::size_t i = 0; i < kDenoiseCandidates; ++i) {
         errors[i] = candidateErrors(halves, i, threads);
@@ -124,19 +123,10 @@ float partnerNoise(const Halves& halves, std::size_t channel, std::size_t x, std
     return count > 0 ? sum / static_cast<float>(count) : 0;
 }
 
-struct ErrorSums {
-    double errors = 0, minimum = 0, squares = 0; // relative, over the values of a row
-    ErrorSums& operator+=(const ErrorSums& other) {
-        errors += other.errors;
-        minimum += other.minimum;
-        squares += other.squares;
-        return *this;
-    }
-};
-
 // One row of the result, and of the squared errors.
-ErrorSums finishRow(const Halves& halves, const Choice& weights, std::size_t row, Denoised& result, Planes& errors) {
-    ErrorSums sums;
+DenoiseErrorSums finishRow(const Halves& halves, const Choice& weights, std::size_t row, Denoised& result,
+                           Planes& errors) {
+    DenoiseErrorSums sums;
     const auto y = static_cast<std::uint32_t>(row);
     for (std::uint32_t x = 0; x < result.picture.width; ++x) {
         double pixel = 0;
@@ -168,18 +158,15 @@ void finish(const Halves& halves, Denoised& result, std::size_t threads) {
     Choice weights = choose(halves, threads);
     for (std::size_t i = 0; i < kDenoiseCandidates; ++i) {
         result.shares[i] = meanOf(weights[i]);
-        weights[i] = boxMean(weights[i], kBlendReach, threads);
+        weights[i] = boxMean(weights[i], shared::kDenoiseBlendReach, threads);
     }
     const std::size_t width = result.picture.width, height = result.picture.height;
     Planes errors{Plane(width, height), Plane(width, height), Plane(width, height)};
-    std::vector<ErrorSums> rows(height);
+    std::vector<DenoiseErrorSums> rows(height);
     parallelFor(threads, height, [&](std::size_t y) { rows[y] = finishRow(halves, weights, y, result, errors); });
-    ErrorSums sums;
-    for (const ErrorSums& row : rows) sums += row;
-    const double values = 3.0 * static_cast<double>(width) * static_cast<double>(height);
-    const double value = std::max(sums.errors, sums.minimum);
-    result.relmse = {value / values,
-                     std::hypot(halves.dependentSide * std::sqrt(sums.squares), kFormulaError * value) / values};
+    DenoiseErrorSums sums;
+    for (const DenoiseErrorSums& row : rows) sums += row;
+    result.relmse = denoisedRelMse(sums, width * height, halves.dependentSide);
     for (std::size_t c = 0; c < 3; ++c) {
         errors[c] = boxMean(errors[c], shared::kDenoiseErrorReach, threads);
         for (std::uint32_t y = 0; y < height; ++y)
@@ -201,6 +188,12 @@ Plane toneVariance(const Halves& halves, std::size_t threads) {
 }
 
 } // namespace
+
+RelMseEstimate denoisedRelMse(const DenoiseErrorSums& sums, std::uint64_t pixels, std::uint32_t dependentSide) {
+    const double values = 3.0 * static_cast<double>(pixels);
+    const double value = std::max(sums.errors, sums.minimum);
+    return {value / values, std::hypot(dependentSide * std::sqrt(sums.squares), kFormulaError * value) / values};
+}
 
 Denoised denoise(const DenoiseInput& input, std::uint32_t dependentSide, std::size_t threads) {
     const std::uint32_t width = input.halfA.width, height = input.halfA.height;

@@ -30,8 +30,21 @@ struct Denoised {
     RelMseEstimate relmse;                           // of `picture`
 };
 
-// The noise of pixels of a square of `dependentSide` may be alike, as in ErrorEstimate.h. The same bits for any number of
-// threads (0: as many as the machine has). Whoever may call this thread's work off (Interruption.h) interrupts it.
+// Over all values of a picture, relative: their squared errors, the least that these can be, and the squares of what
+// each pixel adds to the first.
+struct DenoiseErrorSums {
+    double errors = 0, minimum = 0, squares = 0;
+    DenoiseErrorSums& operator+=(const DenoiseErrorSums& other) {
+        errors += other.errors;
+        minimum += other.minimum;
+        squares += other.squares;
+        return *this;
+    }
+};
+RelMseEstimate denoisedRelMse(const DenoiseErrorSums& sums, std::uint64_t pixels, std::uint32_t dependentSide);
+
+// The noise of pixels of a square of `dependentSide` may be alike, as in ErrorEstimate.h. The same bits for any number
+// of threads (0: as many as the machine has). Whoever may call this thread's work off (Interruption.h) interrupts it.
 Denoised denoise(const DenoiseInput& input, std::uint32_t dependentSide, std::size_t threads = 0);
 
 } // namespace rt::image

@@ -5,11 +5,12 @@
 #include <numeric>
 #include <tuple>
 
+#include "Common/Shared/Denoise/DenoiseFit.h"
+
 namespace rt::image {
 namespace {
 
 constexpr std::size_t kSide = std::tuple_size_v<SurfaceFeatures>;
-constexpr double kMinVariance = 1.0e-2; // of an axis, in units of the scaled features
 constexpr int kSweeps = 12;
 
 using Matrix = std::array<std::array<double, kSide>, kSide>;
@@ -40,7 +41,7 @@ Matrix diagonalize(Matrix& a) {
     return vectors;
 }
 
-// Sums in float, whole rows of eight at a time, are what vectors do; their rounding is far below kMinVariance.
+// Sums in float, whole rows of eight at a time, are what vectors do; their rounding is far below kDenoiseFeatureNoise.
 Matrix covariance(const std::vector<SurfaceFeatures>& pixels, const SurfaceFeatures& mean) {
     constexpr std::size_t kPadded = 8;
     static_assert(kSide <= kPadded);
@@ -72,7 +73,9 @@ FeatureSpace principalFeatures(const std::vector<SurfaceFeatures>& pixels) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&a](std::size_t i, std::size_t j) { return a[i][i] > a[j][j]; });
     for (const std::size_t axis : order) {
-        if (space.axes.size() == kDenoiseSurfaceFeatures || !(a[axis][axis] > kMinVariance)) break;
+        if (space.axes.size() == shared::kDenoiseSurfaceFeatures ||
+            !(a[axis][axis] > double{shared::kDenoiseFeatureNoise}))
+            break;
         SurfaceFeatures& direction = space.axes.emplace_back();
         for (std::size_t i = 0; i < kSide; ++i) direction[i] = static_cast<float>(vectors[i][axis]);
     }

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "Common/Image/Denoise/DenoiseKernel.h"
+#include "Common/Shared/Denoise/DenoiseFit.h"
 
 namespace rt::image {
 
-using SurfaceFeatures = std::array<float, 7>; // albedo, normal, depth, each scaled
+using SurfaceFeatures = std::array<float, shared::kDenoiseSurfaceValues>; // albedo, normal, depth, each scaled
 
 struct FeatureSpace {
     SurfaceFeatures mean{};

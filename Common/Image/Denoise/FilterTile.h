@@ -8,15 +8,13 @@
 #include "Common/Image/Denoise/DenoiseKernel.h"
 #include "Common/Image/Denoise/Float8.h"
 #include "Common/Image/Denoise/WeightedSums.h"
+#include "Common/Shared/Denoise/DenoiseFit.h"
 
 namespace rt::image {
 namespace {
 
 using shared::kDenoisePatchReach;
 using shared::uint;
-
-constexpr float kRidge = 1.0e-3f; // of the sum of weights: a feature that varies by much less has no say
-constexpr float kTiny = 1.0e-6f;  // keeps the system regular where nothing varies
 
 // The parts of DenoiseTile::scratch.
 struct Scratch {
@@ -111,27 +109,23 @@ struct Eight {
     uint candidate;
 };
 
-// Steps to the pixels whose noise may be like that of the eight: across for a lane, down for the row.
-RT_FN int partner(int step, int at) {
-    return step == 0 ? 0 : 1 - 2 * (at & 1);
-}
-
 // Adds to `factors` that by which the radiance of eight pixels, each so many steps from one of the eight that are
 // fitted, enters the fit. `solution`: inverse of the products . features at the pixel that is fitted.
 template <int kCount>
 RT_CALL void addFactor(const DenoiseTile& tile, const Eight& eight, const float* patches, int stepAcross, int stepDown,
                        const Float8 (&solution)[kCount], Float8& factors) {
     const float perSquaredBandwidth = shared::denoisePerSquaredBandwidth(eight.candidate);
-    const int down = partner(stepDown, eight.row);
+    const int down = shared::denoisePartner(stepDown, eight.row);
     float weights[kLaneCount], features[kCount][kLaneCount];
     for (int lane = 0; lane < kLaneCount; ++lane) {
-        const int across = partner(stepAcross, lane), place = eight.first + lane + down * kDenoisePitch + across;
+        const int across = shared::denoisePartner(stepAcross, lane),
+                  place = eight.first + lane + down * kDenoisePitch + across;
         const int offset = (down + kDenoiseReach) * kDenoiseRowOffsets + across + kDenoiseReach;
         weights[lane] =
             tile.inside[place] * shared::denoiseWeight(patches[offset * kLaneCount + lane], perSquaredBandwidth);
         features[0][lane] = 1;
-        features[1][lane] = kPerPixel * static_cast<float>(across);
-        features[2][lane] = kPerPixel * static_cast<float>(down);
+        features[1][lane] = shared::kDenoisePixel * static_cast<float>(across);
+        features[2][lane] = shared::kDenoisePixel * static_cast<float>(down);
         for (int i = kCoordinates; i < kCount; ++i) features[i][lane] = tile.features[i - kCoordinates][place];
     }
     Float8 fit = broadcast(0);
@@ -145,9 +139,10 @@ template <int kCount>
 RT_CALL void regress(const DenoiseTile& tile, const Reach& reach, const Eight& eight, const float* patches) {
     Float8 products[kCount][kCount], radiance[kCount][3], inverse[kCount], solution[kCount];
     sumProducts<kCount>(tile, reach, products, radiance);
-    products[0][0] = products[0][0] + broadcast(kTiny);
+    products[0][0] = products[0][0] + broadcast(shared::kDenoiseTiny);
     for (int i = 1; i < kCount; ++i)
-        products[i][i] = products[i][i] + multiplyAdd(broadcast(kRidge), products[0][0], broadcast(kTiny));
+        products[i][i] = products[i][i] +
+                         multiplyAdd(broadcast(shared::kDenoiseRidge), products[0][0], broadcast(shared::kDenoiseTiny));
     factorize(products, inverse);
     for (int i = 0; i < kCoordinates; ++i) solution[i] = broadcast(i == 0 ? 1.0f : 0.0f);
     for (int i = kCoordinates; i < kCount; ++i) solution[i] = load(tile.features[i - kCoordinates] + eight.first);

@@ -7,6 +7,7 @@
 
 #include "Common/Image/Denoise/DenoiseKernel.h"
 #include "Common/Image/Denoise/Float8.h"
+#include "Common/Shared/Denoise/DenoiseFit.h"
 
 namespace rt::image {
 namespace {
@@ -16,7 +17,6 @@ using shared::kDenoiseReach;
 constexpr int kCoordinates = 3; // features that every tile has: 1, and coordinates from the pixel that is fitted
 constexpr int kWeightValues = 2 * kLaneCount;             // of a place, see Reach
 constexpr int kDenoiseRowOffsets = 2 * kDenoiseReach + 1; // of a row, and rows
-constexpr float kPerPixel = 0.1f;                         // coordinates are small, as the surface's features are
 
 // From a pixel to those in reach, row by row, in a plane.
 struct Steps {
@@ -40,7 +40,7 @@ struct Reach {
 
 // Of a row or column of what is in reach.
 RT_FN Float8 coordinate(int rowOrColumn) {
-    return broadcast(kPerPixel * static_cast<float>(rowOrColumn - kDenoiseReach));
+    return broadcast(shared::kDenoisePixel * static_cast<float>(rowOrColumn - kDenoiseReach));
 }
 
 // Weights of what eight pixels have in reach, by the mean distances of their patches; `first`: the place of the eight.

@@ -34,6 +34,11 @@ RT_FN float denoisePerSquaredBandwidth(uint candidate) {
     return 1.0f / (bandwidth * bandwidth);
 }
 
+// A pixel's radiance as it is filtered.
+RT_FN float denoiseRadiance(float radiance) {
+    return isFinite(radiance) ? min(radiance, kDenoiseMaxRadiance) : 0.0f;
+}
+
 // The tone in which pixels are compared: in linear radiance the brightest ones alone would count.
 RT_FN float denoiseTone(float radiance) {
     return log1p(4.0f * clamp(radiance, 0.0f, kDenoiseMaxRadiance));
