@@ -28,6 +28,14 @@
     X(FilmReduce, FilmReduce_comp)                             \
     X(FilmResolve, FilmResolve_comp)                           \
     X(SampleList, SampleList_comp)                             \
+    X(DenoisePrepare, DenoisePrepare_comp)                     \
+    X(DenoiseMean, DenoiseMean_comp)                           \
+    X(DenoiseFeatures, DenoiseFeatures_comp)                   \
+    X(DenoiseFit, DenoiseFit_comp)                             \
+    X(DenoiseErrors, DenoiseErrors_comp)                       \
+    X(DenoiseBlend, DenoiseBlend_comp)                         \
+    X(DenoiseLivePrepare, DenoiseLivePrepare_comp)             \
+    X(DenoiseLive, DenoiseLive_comp)                           \
     X(PreviewVertex, Preview_vert)                             \
     X(PreviewFragment, Preview_frag)                           \
     X(PreviewFinish, Preview_comp)

@@ -51,6 +51,10 @@ bug 'weights from the half that is filtered' DenoiseFilter.cpp 's/halves_\.half\
 bug 'pixels that are compared as if they had no noise' Denoiser.cpp 's/\+= 0\.5f \* difference \* difference/+= 0.0f * difference/' unit.Denoiser
 bug 'no stop at an edge' DenoiseWeights.h 's/0\.125f \* perSquaredBandwidth/0.0f * perSquaredBandwidth/' unit.Denoiser
 bug 'an error without what is left of the noise' DenoiseWeights.h 's/a\.ownFactor \+ b\.ownFactor - 1\.0f/-1.0f/' unit.Denoiser
+bug 'weights of the device from the half that is filtered' DenoiseFit.comp 's/planeIndex\(top, 1 - half_\)/planeIndex(top, half_)/' cross.DeviceDenoiserTest
+bug 'rows of a fit that end alike' DenoiseFit.comp 's/float\(2 \* y \+ 1\)/float(2 * y)/' cross.DeviceDenoiserTest
+bug 'features of the device without their mean' DenoiseFeatures.comp 's/values\[k\] -= mean\[k\];/values[k] -= 0.0f;/' cross.DeviceDenoiserTest
+bug 'live quality by the weights of its own half' DenoiseLivePrepare.comp 's/\(1u - half_\) \* pixels/half_ * pixels/' cross.DeviceDenoiserTest
 
 # ---- options, scenes -------------------------------------------------------------------------------------------------
 bug 'a whole number beyond its range' OptionValues.cpp 's/rest != end \|\| value < min \|\| value > max/rest != end || value < min/' unit.OptionsTest

@@ -1,0 +1,40 @@
+// What the denoiser's passes have in common.
+#include "DenoiseRecords.h"
+
+layout(push_constant, scalar) uniform Launch { DenoiseLaunch launch; };
+
+const uint kRawCandidate = kDenoiseBandwidths; // leaves a pixel as it is
+
+bool isInside(ivec2 pixel) {
+    return pixel.x >= 0 && pixel.y >= 0 && pixel.x < int(launch.width) && pixel.y < int(launch.height);
+}
+// Of the image.
+uint pixelIndex(ivec2 pixel) {
+    return uint(pixel.y) * launch.width + uint(pixel.x);
+}
+uint pixelCount() {
+    return launch.width * launch.height;
+}
+// In a bordered plane of a half; up to kDenoiseBorder pixels outside of the image.
+int planeIndex(ivec2 pixel, int half_) {
+    return (half_ * denoisePlaneRows(launch.height) + pixel.y + kDenoiseBorder) * denoisePitch(launch.width) + pixel.x +
+           kDenoiseBorder;
+}
+
+// What a candidate makes of a pixel of a half.
+struct Candidate {
+    vec3 filtered;
+    vec2 factors; // DenoisedValue's
+};
+Candidate candidateOf(uint candidate, ivec2 pixel, int half_) {
+    Candidate result;
+    if (candidate == kRawCandidate) {
+        result.filtered = launch.radiance.at[planeIndex(pixel, half_)].rgb;
+        result.factors = vec2(1.0f, 0.0f);
+        return result;
+    }
+    vec4 stored = launch.filtered.at[(candidate * 2u + uint(half_)) * pixelCount() + pixelIndex(pixel)];
+    result.filtered = stored.rgb;
+    result.factors = unpackHalf2x16(floatBitsToUint(stored.w));
+    return result;
+}

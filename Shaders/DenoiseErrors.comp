@@ -1,0 +1,34 @@
+// By how much each candidate seems to be off, in tones, of each pixel alone: what it is chosen by.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_scalar_block_layout : require
+#include "Denoise.glsl"
+
+layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
+
+float candidateError(uint candidate, ivec2 pixel) {
+    DenoisedValue values[2][3];
+    for (int half_ = 0; half_ < 2; half_++) {
+        Candidate made = candidateOf(candidate, pixel, half_);
+        vec4 tones = launch.guides.at[planeIndex(pixel, half_)];
+        for (int channel = 0; channel < 3; channel++) {
+            values[half_][channel].filtered = denoiseTone(made.filtered[channel]);
+            values[half_][channel].raw = tones[channel];
+            values[half_][channel].ownFactor = made.factors.x;
+            values[half_][channel].partnerFactor = made.factors.y;
+        }
+    }
+    float error = 0.0f;
+    for (int channel = 0; channel < 3; channel++) error += denoiseError(values[0][channel], values[1][channel], 0.0f);
+    return error;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (!isInside(pixel)) return;
+    vec4 errors = vec4(0.0f);
+    for (uint candidate = 0u; candidate < launch.candidates; candidate++)
+        errors[candidate] = candidateError(candidate, pixel);
+    launch.values.at[pixelIndex(pixel)] = errors;
+}

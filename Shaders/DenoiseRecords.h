@@ -1,0 +1,86 @@
+// What the denoiser's passes hand to each other, valid as C++20 and as GLSL: where pixels stand in its planes, and the
+// push constants of all passes. See docs/denoising.md.
+#ifndef RT_SHADERS_DENOISE_RECORDS_H
+#define RT_SHADERS_DENOISE_RECORDS_H
+#include "Common/Shared/Denoise/DenoiseFit.h"
+#include "Common/Shared/Denoise/DenoiseWeights.h"
+#include "Records.h"
+
+RT_SHARED_BEGIN
+
+// Planes of four floats a pixel, each of which is one load.
+#ifdef __cplusplus
+using PixelPlane = std::uint64_t;
+#else
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer PixelPlane {
+    vec4 at[];
+};
+#endif
+
+// Pixels of a work group that filters.
+const int kDenoiseColumns = 8;
+const int kDenoiseRows = 16;
+// Around the image, bordered planes have what is in reach of the patches of what is in reach: zeros, so that nothing
+// has to ask where it is.
+const int kDenoiseBorder = kDenoiseReach + kDenoisePatchReach;
+const int kDenoiseTileReach = kDenoiseTile + 2 * kDenoiseReach; // pixels a side of what a tile's pixels are fitted by
+RT_CONST float kDenoiseRelativeFloor = 0.01f;                   // of relMSE's denominator
+const uint kDenoiseSums = 8u;                                   // of a work group: see DenoiseBlend.comp
+
+// What a pass that averages over squares does with the means.
+const uint kMeansAsTheyAre = 0u;
+const uint kMeansToGuides = 1u; // the first component is the variance of both guides
+const uint kMeansPositive = 2u; // negative ones become 0
+const uint kMeansToTones = 3u;  // as to guides, where these are tones of LiveLaunch
+
+// Push constants of all passes. Halves follow each other in what has both.
+struct DenoiseLaunch {
+    MutableVectorArray halves;   // radiance as rendered, row by row
+    MutableFloatArray surfaces;  // kAovValues of each pixel
+    PixelPlane radiance;         // bordered; the last component is 1 in the image
+    PixelPlane guides;           // bordered: tones, and their variance, summed over the channels
+    PixelPlane features;         // of the surface, of what is in reach of each tile
+    MutableWordArray axes;       // how many of these each tile has
+    PixelPlane filtered;         // by each candidate: radiance; the two factors, packed
+    PixelPlane values;           // what is averaged over squares: variances; errors of the candidates; squared errors
+    PixelPlane means;            // of these
+    MutableVectorArray pictures; // the result, and both halves of it
+    MutableFloatArray kept;      // the candidate of each pixel
+    MutableFloatArray sums;      // kDenoiseSums of each work group
+    uint width;
+    uint height;
+    uint candidates;    // among which a pixel may choose
+    uint dependentSide; // 2: the noise of pixels of a square of 2x2 may be alike
+    float usualDepth;
+    uint firstRow; // of work groups, that are filtered
+    uint use;      // of means, by flags
+};
+
+// Push constants of the passes of live quality. No plane has a border.
+struct LiveLaunch {
+    MutableVectorArray halves;  // as DenoiseLaunch's; after the last level the picture
+    MutableFloatArray surfaces; // as DenoiseLaunch's
+    PixelPlane features;        // of the surface: albedo and depth of all pixels, then normals
+    PixelPlane values;          // the variance of a tone by each pixel alone
+    // By the weights of each half: the other one's radiance; the half's own tones, and their variance. As the level
+    // before has left them, and as this one does.
+    PixelPlane radiance;
+    PixelPlane tones;
+    PixelPlane newRadiance;
+    PixelPlane newTones;
+    uint width;
+    uint height;
+    int level;
+};
+
+// Bordered planes: whole work groups inside of the border.
+RT_FN int denoisePitch(uint width) {
+    return (int(width) + kDenoiseColumns - 1) / kDenoiseColumns * kDenoiseColumns + 2 * kDenoiseBorder;
+}
+RT_FN int denoisePlaneRows(uint height) {
+    return (int(height) + kDenoiseRows - 1) / kDenoiseRows * kDenoiseRows + 2 * kDenoiseBorder;
+}
+
+RT_SHARED_END
+
+#endif
