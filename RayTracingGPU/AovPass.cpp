@@ -9,19 +9,25 @@
 namespace rt::gpu {
 namespace {
 
+// What a pass has written of pixels, from this one on.
+struct AovValues {
+    std::span<const float> values;
+    std::uint32_t ofPixel = 0;
+    std::size_t firstPixel = 0;
+};
+
 // Values `from` and following of each pixel, into an image unless that is not wanted.
-void copyValues(std::span<const float> values, std::uint32_t from, std::size_t firstPixel, image::Image& image) {
+void copyValues(const AovValues& pixels, std::uint32_t from, image::Image& image) {
     if (image.data.empty()) return;
-    for (std::size_t i = 0; i < values.size() / shared::kAovValues; ++i)
-        std::copy_n(&values[i * shared::kAovValues + from], image.channels,
-                    &image.data[(firstPixel + i) * image.channels]);
+    for (std::size_t i = 0; i < pixels.values.size() / pixels.ofPixel; ++i)
+        std::copy_n(&pixels.values[i * pixels.ofPixel + from], image.channels,
+                    &image.data[(pixels.firstPixel + i) * image.channels]);
 }
 
-void copySurfaces(std::span<const float> values, std::uint32_t from, std::size_t firstPixel,
-                  app::SurfaceImages& images) {
-    copyValues(values, from, firstPixel, images.albedo);
-    copyValues(values, from + 3, firstPixel, images.normal);
-    copyValues(values, from + 6, firstPixel, images.depth);
+void copySurfaces(const AovValues& pixels, std::uint32_t from, app::SurfaceImages& images) {
+    copyValues(pixels, from, images.albedo);
+    copyValues(pixels, from + 3, images.normal);
+    copyValues(pixels, from + 6, images.depth);
 }
 
 } // namespace
@@ -29,12 +35,16 @@ void copySurfaces(std::span<const float> values, std::uint32_t from, std::size_t
 app::AovImages renderAovPass(vulkan::VulkanContext& context, const Kernel& kernel, std::uint32_t width,
                              std::uint32_t height, const app::AovRequest& request, std::uint32_t samples) {
     app::AovImages images = app::makeAovImages(request, width, height);
-    PixelPass pass{width, request.rows > 0 ? request.rows : height, 1, samples, shared::kAovValues, request.firstRow};
+    PixelPass pass{width, request.rows > 0 ? request.rows : height, 1, samples};
+    pass.firstRow = request.firstRow;
     pass.looksThrough = request.looksThrough();
+    pass.values = shared::aovValues(pass.looksThrough);
     runPixelPass(context, kernel, pass, [&](std::span<const float> values, std::size_t first) {
-        copySurfaces(values, shared::kFirstValues, first, images);
-        copySurfaces(values, shared::kWideValues, first, images.wide);
-        copyValues(values, shared::kEmissionValues, first, images.emission);
+        const AovValues pixels{values, pass.values, first};
+        copySurfaces(pixels, shared::kFirstValues, images);
+        if (!pass.looksThrough) return;
+        copySurfaces(pixels, shared::kWideValues, images.wide);
+        copyValues(pixels, shared::kEmissionValues, images.emission);
     });
     return images;
 }

@@ -110,7 +110,7 @@ DeviceDenoiser::DeviceDenoiser(vulkan::VulkanContext& context, DenoisePipelines&
         std::size_t{groupsFor(width, shared::kDenoiseTile)} * groupsFor(height, shared::kDenoiseTile);
     const std::size_t inReach = tiles * shared::kDenoiseTileReach * shared::kDenoiseTileReach;
     halves_ = make(2 * pixels_ * kThreeFloats);
-    surfaces_ = make(pixels_ * shared::kAovValues * sizeof(float));
+    surfaces_ = make(pixels_ * shared::kSurfaceValues * sizeof(float));
     radiance_ = make(2 * bordered * kFourFloats);
     guides_ = make(2 * bordered * kFourFloats);
     features_ = make(std::max(inReach * kFourFloats, 3 * pixels_ * kThreeFloats));
@@ -125,11 +125,11 @@ DeviceDenoiser::DeviceDenoiser(vulkan::VulkanContext& context, DenoisePipelines&
 
 void DeviceDenoiser::setSurfaces(const image::Image& albedo, const image::Image& normal, const image::Image& depth) {
     usualDepth_ = image::usualDepth(depth);
-    std::vector<float> values(pixels_ * shared::kAovValues);
+    std::vector<float> values(pixels_ * shared::kSurfaceValues);
     const auto copy = [&](const image::Image& from, std::size_t first) {
         if (from.data.empty()) return;
         for (std::size_t i = 0; i < pixels_; ++i)
-            std::copy_n(&from.data[i * from.channels], from.channels, &values[i * shared::kAovValues + first]);
+            std::copy_n(&from.data[i * from.channels], from.channels, &values[i * shared::kSurfaceValues + first]);
     };
     copy(albedo, 0);
     copy(normal, 3);
@@ -144,10 +144,10 @@ void DeviceDenoiser::setHalves(const image::Image& a, const image::Image& b) {
 
 float DeviceDenoiser::usualDepth() {
     if (usualDepth_) return *usualDepth_;
-    std::vector<float> values(pixels_ * shared::kAovValues);
+    std::vector<float> values(pixels_ * shared::kSurfaceValues);
     vulkan::download(context_, surfaces_, std::as_writable_bytes(std::span(values)));
     image::Image depth(width_, height_, 1);
-    for (std::size_t i = 0; i < pixels_; ++i) depth.data[i] = values[(i + 1) * shared::kAovValues - 1];
+    for (std::size_t i = 0; i < pixels_; ++i) depth.data[i] = values[(i + 1) * shared::kSurfaceValues - 1];
     usualDepth_ = image::usualDepth(depth);
     return *usualDepth_;
 }

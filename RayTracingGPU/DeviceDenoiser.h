@@ -63,7 +63,7 @@ class DeviceDenoiser {
 
     // Of the surface in sight; without pixels where they are not known.
     void setSurfaces(const image::Image& albedo, const image::Image& normal, const image::Image& depth);
-    // Where they are, kAovValues of each pixel, and to be called when they have been made there.
+    // Where they are, kSurfaceValues of each pixel, and to be called when they have been made there.
     const vulkan::Buffer& surfaces() const { return surfaces_; }
     void surfacesChanged() { usualDepth_.reset(); }
     // Where the halves of the picture are to be: radiance as three floats a pixel, row by row, one after the other. A
@@ -79,9 +79,8 @@ class DeviceDenoiser {
     void runLive();
     image::Image readLive() const;
 
-    std::span<const double, kDenoisePasses> passSeconds() const {
-        return passSeconds_;
-    } // of the device, in the last run
+    // Of the device, in the last run.
+    std::span<const double, kDenoisePasses> passSeconds() const { return passSeconds_; }
 
   private:
     VkExtent3D groups() const; // of the image

@@ -299,7 +299,7 @@ void DeviceFilm::advance(const shared::FilmLaunch& launch) {
     }
 }
 
-app::Snapshot DeviceFilm::snapshot(FilmResolver& resolver) const {
+shared::ResolveLaunch DeviceFilm::resolution() const {
     shared::ResolveLaunch launch{};
     launch.samples = samplesBuffer_.address();
     launch.sums = sums_.address();
@@ -308,11 +308,23 @@ app::Snapshot DeviceFilm::snapshot(FilmResolver& resolver) const {
     launch.height = desc_.height;
     launch.replicates = desc_.replicates;
     launch.plan = planBuffer_.address();
+    launch.isPlanned = plan_.empty() ? 0 : 1;
     launch.halves = plan_.empty() ? 1 : 2;
     launch.filmSlots = slotCount();
-    app::Snapshot result{resolver.resolve(launch), std::vector<std::uint64_t>(tileCount())};
+    return launch;
+}
+
+app::Snapshot DeviceFilm::snapshot(FilmResolver& resolver) const {
+    app::Snapshot result{resolver.resolve(resolution()), std::vector<std::uint64_t>(tileCount())};
     for (std::uint32_t tile = 0; tile < tileCount(); ++tile) result.tileSamples[tiles_[tile]] = tileSamples(tile);
     return result;
+}
+
+std::uint64_t DeviceFilm::resolveHalves(FilmResolver& resolver, const vulkan::Buffer& to) const {
+    if (!isImage() || desc_.replicates < 2) return 0;
+    const std::uint64_t samples = *std::min_element(samples_.begin(), samples_.end());
+    if (samples > 0) resolver.resolveHalves(resolution(), to);
+    return samples * (desc_.replicates / 2);
 }
 
 // ---- pipelines -----------------------------------------------------------------------------------------------------
@@ -346,13 +358,24 @@ image::Image FilmResolver::resolve(shared::ResolveLaunch launch) {
         pixels_ = vulkan::Buffer(context_.memory(), bytes, 0, vulkan::Memory::ReadBack, "a picture");
     }
     launch.pixels = pixels_.address();
+    run(launch, vulkan::kHostRead);
+    std::memcpy(image.data.data(), pixels_.mapped<std::byte>().data(), bytes);
+    return image;
+}
+
+void FilmResolver::resolveHalves(shared::ResolveLaunch launch, const vulkan::Buffer& to) {
+    launch.pixels = to.address();
+    launch.halves = 2;
+    launch.apart = 1;
+    run(launch, context_.bufferUses());
+}
+
+void FilmResolver::run(const shared::ResolveLaunch& launch, vulkan::Access uses) {
     const auto tilesIn = [](std::uint32_t pixels) { return (pixels + shared::kTile - 1) / shared::kTile; };
     context_.run([&](VkCommandBuffer commands) {
         pipeline_.run(commands, launch, tilesIn(launch.width) * tilesIn(launch.height));
-        vulkan::barrier(commands, vulkan::kComputeWrite, vulkan::kHostRead);
+        vulkan::barrier(commands, vulkan::kComputeWrite, uses);
     });
-    std::memcpy(image.data.data(), pixels_.mapped<std::byte>().data(), bytes);
-    return image;
 }
 
 } // namespace rt::gpu

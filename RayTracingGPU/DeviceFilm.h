@@ -39,8 +39,12 @@ class FilmResolver {
     FilmResolver(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache);
     // launch.pixels need not be set.
     image::Image resolve(shared::ResolveLaunch launch);
+    // Both halves, to the buffer; likewise.
+    void resolveHalves(shared::ResolveLaunch launch, const vulkan::Buffer& to);
 
   private:
+    void run(const shared::ResolveLaunch& launch, vulkan::Access uses);
+
     vulkan::VulkanContext& context_;
     FilmPipeline pipeline_;
     vulkan::Buffer pixels_; // of the host, of the largest so far
@@ -67,6 +71,9 @@ class DeviceFilm {
     app::TilesToPack take(ReadBackPool& readBacks) const;
     // What Film::resolve() would return, and the samples of each tile; isImage() is required.
     app::Snapshot snapshot(FilmResolver& resolver) const;
+    // The mean of each half of its samples, as two pictures of three floats a pixel. Returns how many samples of each
+    // half a pixel has, at least; 0: it has not both halves everywhere, and nothing was written.
+    std::uint64_t resolveHalves(FilmResolver& resolver, const vulkan::Buffer& to) const;
     // Makes room for blocks that stay open.
     void reserveOpenBlocks();
 
@@ -96,6 +103,7 @@ class DeviceFilm {
     void advance(const shared::FilmLaunch& launch);
 
   private:
+    shared::ResolveLaunch resolution() const;
     void clear();
     void uploadCounts();
     void loadPlan(const image::Film& film);

@@ -242,4 +242,10 @@ std::optional<app::Snapshot> FilmRenderer::snapshot() {
     });
 }
 
+std::uint64_t FilmRenderer::resolveHalves(const vulkan::Buffer& to) {
+    if (failed_ || !region_) return 0;
+    if (!resolver_) resolver_.emplace(context_, cache_);
+    return region_->resolveHalves(*resolver_, to);
+}
+
 } // namespace rt::gpu

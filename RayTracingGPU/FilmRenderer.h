@@ -12,6 +12,7 @@
 #include "Common/Image/FilmTiles.h"
 #include "Common/Render/Engine.h"
 #include "Common/Render/Stopwatch.h"
+#include "Common/Vulkan/Buffer.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/VulkanContext.h"
 #include "RayTracingGPU/DeviceFilm.h"
@@ -44,6 +45,12 @@ class FilmRenderer {
     // From the device; nothing where the host has what there is.
     std::optional<app::TilesToPack> takeTiles(const image::TileList& tiles);
     std::optional<app::Snapshot> snapshot();
+    // As DeviceFilm's; 0 also where the film is not on the device. Where it throws, the film is there still.
+    std::uint64_t resolveHalves(const vulkan::Buffer& to);
+
+    // The device was lost: nothing is read from it any more.
+    bool hasFailed() const { return failed_; }
+    void giveUpDevice() { failed_ = true; } // other work was told so
 
   private:
     void loadTiles();

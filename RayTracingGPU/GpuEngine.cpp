@@ -6,23 +6,28 @@
 #include <utility>
 #include <vector>
 
+#include "Common/Core/Error.h"
+#include "Common/Render/PictureDenoiser.h"
 #include "Common/Render/RenderParams.h"
 #include "Common/Shared/Base/Features.h"
+#include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/ShaderFigures.h"
 #include "RayTracingGPU/AovPass.h"
 #include "RayTracingGPU/EngineChoice.h"
 #include "RayTracingGPU/FilmRenderer.h"
+#include "RayTracingGPU/GpuDenoiser.h"
 #include "RayTracingGPU/GpuScene.h"
 #include "RayTracingGPU/MeasuredEngine.h"
 #include "RayTracingGPU/PixelPass.h"
 #include "RayTracingGPU/PreviewPass.h"
 #include "RayTracingGPU/RenderKernels.h"
+#include "Shaders/Records.h"
 
 namespace rt::gpu {
 namespace {
 
-class GpuEngine final : public app::Engine {
+class GpuEngine final : public app::Engine, private FilmOnDevice {
   public:
     GpuEngine(vulkan::VulkanContext& context, const GpuEngineOptions& options)
         : context_(context),
@@ -56,9 +61,17 @@ class GpuEngine final : public app::Engine {
     image::Image renderCost(app::Cost cost, std::uint32_t samples) override;
     bool canPreview() const override { return context_.info().draws; }
     app::Preview renderPreview(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) override;
+    std::unique_ptr<app::PictureDenoiser> makeDenoiser() override;
+    app::DenoisedPicture denoiseHalves(const image::DenoiseInput& halves, bool details, std::uint32_t threads) override;
     app::EngineReport report() const override;
 
   private:
+    bool denoises() const { return !context_.info().isSoftware() || options_.denoisesInSoftware; }
+    GpuDenoiser& denoiser() override;
+    std::uint32_t dependentSide() const override { return app::dependentSide(features_); }
+    std::uint64_t resolveHalves(const vulkan::Buffer& to) override { return renderer_.resolveHalves(to); }
+    bool renderSurfaces(std::uint32_t samples, const vulkan::Buffer& to, const std::atomic<bool>& cancel) override;
+
     void adopt(const scene::CameraDesc& camera, const app::RenderSettings& settings);
     void makeReady(const scene::CameraDesc& camera);
 
@@ -69,6 +82,7 @@ class GpuEngine final : public app::Engine {
     RenderKernels kernels_;
     app::EngineReport report_;
     FilmRenderer renderer_;
+    std::optional<GpuDenoiser> denoiser_; // once it was needed
 
     std::unique_ptr<GpuScene> scene_;
     bool isNewScene_ = false;            // since the last reset
@@ -141,6 +155,34 @@ app::Preview GpuEngine::renderPreview(const scene::CameraDesc& camera, std::uint
         cache_.save();
     }
     return preview_->render(camera, width, height);
+}
+
+std::unique_ptr<app::PictureDenoiser> GpuEngine::makeDenoiser() {
+    if (!denoises()) return Engine::makeDenoiser();
+    return makeFilmDenoiser(*this, *this, settings_.width, settings_.height);
+}
+
+GpuDenoiser& GpuEngine::denoiser() {
+    if (!denoiser_) denoiser_.emplace(context_, cache_);
+    return *denoiser_;
+}
+
+bool GpuEngine::renderSurfaces(std::uint32_t samples, const vulkan::Buffer& to, const std::atomic<bool>& cancel) {
+    const PixelPass pass{settings_.width, settings_.height, 1, samples, shared::kSurfaceValues};
+    return runPixelPass(context_, kernels_.firstHits(), pass, to, cancel);
+}
+
+// The processor does it where the device fails, as for want of memory: it has the halves.
+app::DenoisedPicture GpuEngine::denoiseHalves(const image::DenoiseInput& halves, bool details, std::uint32_t threads) {
+    if (!denoises() || renderer_.hasFailed()) return Engine::denoiseHalves(halves, details, threads);
+    try {
+        return denoiser().denoise(halves, dependentSide(), details);
+    } catch (const vulkan::DeviceLostError&) {
+        renderer_.giveUpDevice();
+    } catch (const RenderError&) {
+        denoiser_.reset();
+    }
+    return Engine::denoiseHalves(halves, details, threads);
 }
 
 app::EngineReport GpuEngine::report() const {

@@ -25,6 +25,8 @@ struct GpuEngineOptions {
     // For how long some pixels may have more samples than others, where the number of samples is known, and none comes
     // sooner. Nobody watches a render without a window, which is faster so: rays of a tile are alike.
     double passSeconds = 0;
+    // Filters on the device even if that is the processor, which its own filter suits better. For tests.
+    bool denoisesInSoftware = false;
 };
 
 inline constexpr double kUnwatchedPassSeconds = 1;

@@ -1,10 +1,12 @@
 // Runs a kernel of one invocation a pixel over rows of an image, in launches as short as a window needs them.
 #pragma once
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
 
+#include "Common/Vulkan/Buffer.h"
 #include "Common/Vulkan/VulkanContext.h"
 #include "RayTracingGPU/Kernel.h"
 
@@ -18,6 +20,10 @@ struct PixelPass {
     std::uint32_t firstRow = 0; // of the image
     bool looksThrough = false;  // of features of surfaces, as PixelLaunch's
 };
+
+// Writes the values of the pixels, row by row, to the buffer. False: cancelled. Throws RenderError.
+bool runPixelPass(vulkan::VulkanContext& context, const Kernel& kernel, const PixelPass& pass, const vulkan::Buffer& to,
+                  const std::atomic<bool>& cancel);
 
 // Hands the values of the pixels, row by row, to `take` in pieces, with the number of each piece's first pixel from
 // that of the first row. Throws RenderError.

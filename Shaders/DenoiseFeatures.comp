@@ -22,7 +22,7 @@ shared uint axes[kDenoiseSurfaceFeatures];
 shared uint axisCount;
 
 void loadSurface(ivec2 pixel, out float values[kSide]) {
-    uint at = pixelIndex(pixel) * kAovValues;
+    uint at = pixelIndex(pixel) * kSurfaceValues;
     for (uint i = 0u; i < 3u; i++) {
         values[i] = denoiseAlbedo(launch.surfaces.at[at + i]);
         values[3u + i] = denoiseNormal(launch.surfaces.at[at + 3u + i]);

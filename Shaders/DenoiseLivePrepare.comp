@@ -10,7 +10,7 @@ layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
 layout(push_constant, scalar) uniform Launch { LiveLaunch launch; };
 
 void prepareSurface(uint pixel, uint pixels) {
-    uint at = pixel * kAovValues;
+    uint at = pixel * kSurfaceValues;
     vec3 albedo;
     vec3 normal;
     for (int i = 0; i < 3; i++) {

@@ -36,7 +36,7 @@ const uint kMeansToTones = 3u;  // as to guides, where these are tones of LiveLa
 // Push constants of all passes. Halves follow each other in what has both.
 struct DenoiseLaunch {
     MutableVectorArray halves;   // radiance as rendered, row by row
-    MutableFloatArray surfaces;  // kAovValues of each pixel
+    MutableFloatArray surfaces;  // kSurfaceValues of each pixel
     PixelPlane radiance;         // bordered; the last component is 1 in the image
     PixelPlane guides;           // bordered: tones, and their variance, summed over the channels
     PixelPlane features;         // of the surface, of what is in reach of each tile

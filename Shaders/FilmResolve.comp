@@ -1,4 +1,4 @@
-// The picture of a film.
+// The picture of a film, or those of its halves.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
@@ -14,6 +14,7 @@ void main() {
     uint tilePixel = gl_LocalInvocationID.x;
     uvec2 pixel = pixelInTile(launch.samples.at[launch.filmSlots + position], tilePixel);
     if (pixel.x >= launch.width || pixel.y >= launch.height) return;
+    uint index = pixel.y * launch.width + pixel.x;
     vec3 mean = vec3(0.0f);
     for (uint half_ = 0u; half_ < launch.halves; half_++) {
         vec3 sum = vec3(0.0f);
@@ -25,9 +26,11 @@ void main() {
             vec3 low = launch.sums.at[at].low;
             if (done % kBlock != 0u) low += launch.open.at[at];
             sum += launch.sums.at[at].high + low;
-            samples += launch.halves == 2u ? min(done, launch.plan.at[at]) : done;
+            samples += launch.isPlanned != 0u ? min(done, launch.plan.at[at]) : done;
         }
-        mean += sum / float(max(samples, 1u));
+        vec3 meanOfHalf = sum / float(max(samples, 1u));
+        if (launch.apart != 0u) launch.pixels.at[half_ * launch.width * launch.height + index] = meanOfHalf;
+        mean += meanOfHalf;
     }
-    launch.pixels.at[pixel.y * launch.width + pixel.x] = mean / float(launch.halves);
+    if (launch.apart == 0u) launch.pixels.at[index] = mean / float(launch.halves);
 }

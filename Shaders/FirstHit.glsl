@@ -20,6 +20,7 @@ void writeFeatures(uint invocation) {
     RenderParams params = renderParams();
     PixelSamples samples;
     if (!beginPixel(invocation, params, samples)) return;
+    bool looksThrough = launch.looksThrough != 0u;
     SeenSurfaces seen = nothingSeen();
     for (; samples.smp.index < launch.samples; samples.smp.index++) {
         CameraSamples u = cameraSamples(kFeatures, samples.smp);
@@ -28,14 +29,14 @@ void writeFeatures(uint invocation) {
         bool goesOn = true;
         while (goesOn && isTraceable(path.ray, kInfinity)) {
             Hit hit = traceLayers(samples.smp, 2u * path.vertex, path.ray, false, kInfinity);
-            goesOn = seeSurface(kFeatures, scene, params, samples.smp, hit, launch.looksThrough != 0u, path, distance,
-                                seen);
+            goesOn = seeSurface(kFeatures, scene, params, samples.smp, hit, looksThrough, path, distance, seen);
         }
         seen.emission += path.radiance;
     }
     float scale = 1.0f / float(launch.samples);
-    uint first = invocation * kAovValues;
+    uint first = invocation * aovValues(looksThrough);
     writeSurfaces(first + kFirstValues, seen.first, scale);
+    if (!looksThrough) return;
     writeSurfaces(first + kWideValues, seen.wide, scale);
     writeVector(first + kEmissionValues, seen.emission * scale);
 }

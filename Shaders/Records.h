@@ -220,6 +220,8 @@ struct ResolveLaunch {
     uint replicates;
     uint halves; // whose means make the picture: 2 where there is a plan, else 1
     uint filmSlots;
+    uint isPlanned;
+    uint apart; // 1: both halves make a picture each, one after the other
 };
 
 // Samples of replicate r among the first `spp` of a pixel: sample s belongs to replicate s mod R.
@@ -280,16 +282,20 @@ RT_MUTABLE_ARRAY(MutableFloatArray, float)
 
 // Push constants of PixelPass.glsl: pixels firstPixel and following, row by row, one invocation each.
 struct PixelLaunch {
-    MutableFloatArray values; // of the first of these pixels, then of the others; features: kAovValues each
+    MutableFloatArray values; // of the first of these pixels, then of the others; features: aovValues() each
     uint firstPixel;
     uint pixels;
     uint samples;
     uint looksThrough; // features: 0: nothing but kFirstValues is wanted
 };
-const uint kFirstValues = 0u; // albedo, normal and depth of the first surface
-const uint kWideValues = 7u;  // of the first that scatters widely
+const uint kSurfaceValues = 7u;          // albedo, normal and depth
+const uint kFirstValues = 0u;            // where those of the first surface begin
+const uint kWideValues = kSurfaceValues; // of the first that scatters widely
 const uint kEmissionValues = 14u;
 const uint kAovValues = 17u;
+RT_FN uint aovValues(bool looksThrough) {
+    return looksThrough ? kAovValues : kSurfaceValues;
+}
 
 // ---- preview by rasterisation --------------------------------------------------------------------------------------
 

@@ -1,6 +1,8 @@
 #include "Common/Render/Engine.h"
 
 #include "Common/Render/PictureDenoiser.h"
+#include "Common/Render/RenderParams.h"
+#include "Common/Render/Stopwatch.h"
 
 namespace rt::app {
 
@@ -36,6 +38,15 @@ TilesToPack Engine::takeTiles(const image::TileList& tiles) {
 
 std::unique_ptr<PictureDenoiser> Engine::makeDenoiser() {
     return makeHostDenoiser(*this);
+}
+
+DenoisedPicture Engine::denoiseHalves(const image::DenoiseInput& halves, bool details, std::uint32_t threads) {
+    const Stopwatch watch;
+    DenoisedPicture result;
+    result.images = image::denoise(halves, dependentSide(report().features), threads);
+    if (!details) result.images.halfA = result.images.halfB = result.images.error = result.images.bandwidth = {};
+    result.seconds = watch.seconds();
+    return result;
 }
 
 } // namespace rt::app

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "Common/Image/Denoise/Denoiser.h"
 #include "Common/Image/Film.h"
 #include "Common/Image/FilmTiles.h"
 #include "Common/Render/Settings.h"
@@ -152,6 +153,7 @@ enum class Cost {
 using TilesToPack = std::function<std::vector<std::byte>()>;
 
 class PictureDenoiser;
+struct DenoisedPicture;
 
 // Not thread-safe: one thread drives an engine. Order of calls: setScene, reset, renderSome until finished.
 struct Engine {
@@ -201,6 +203,9 @@ struct Engine {
     }
     // After reset: for the film that it has begun, see there.
     virtual std::unique_ptr<PictureDenoiser> makeDenoiser();
+    // After reset: filters halves of a picture as image::denoise() does; on the engine's device, if it can. `details`
+    // as of a DenoiseRequest; `threads` are those of the processor, 0: as many as it has.
+    virtual DenoisedPicture denoiseHalves(const image::DenoiseInput& halves, bool details, std::uint32_t threads);
     virtual EngineReport report() const = 0;
 };
 

@@ -38,6 +38,9 @@ class ForwardingEngine : public Engine {
         return engine_->renderPreview(camera, width, height);
     }
     std::unique_ptr<PictureDenoiser> makeDenoiser() override { return engine_->makeDenoiser(); }
+    DenoisedPicture denoiseHalves(const image::DenoiseInput& halves, bool details, std::uint32_t threads) override {
+        return engine_->denoiseHalves(halves, details, threads);
+    }
     EngineReport report() const override { return engine_->report(); }
 
   protected:

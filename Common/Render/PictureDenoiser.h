@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "Common/Image/Denoise/Denoiser.h"
 #include "Common/Render/Engine.h"
@@ -22,11 +24,18 @@ struct DenoiseRequest {
     std::uint32_t featureSamples = kAovSamples; // of each pixel, at least, where features are rendered for it
 };
 
+struct DenoisePassTime {
+    std::string name;
+    double seconds = 0;
+};
+
 // What was not asked for, or is not known, has no pixels.
 struct DenoisedPicture {
     DenoiseQuality quality = DenoiseQuality::Final;
     image::Denoised images; // of Live only the picture; the rest of it has no meaning then
     double seconds = 0;     // of features and filter
+    std::string device{};   // that has filtered, and its passes; empty: the processor
+    std::vector<DenoisePassTime> passes{};
 };
 
 // Of one film: made by Engine::makeDenoiser() after reset(), and of no use after the next one. What takes long to make,

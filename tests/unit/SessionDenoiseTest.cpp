@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Image/Film.h"
 #include "Common/Image/ImageIo.h"
+#include "Common/Render/PictureDenoiser.h"
 #include "tests/FileBytes.h"
 #include "tests/unit/SessionFixture.h"
 
@@ -44,6 +46,26 @@ TEST_F(SessionDenoise, WritesBesideTheRawPicture) {
     double shares = denoised["raw_share"];
     for (const nlohmann::json& row : denoised["bandwidths"]) shares += row["share"].get<double>();
     EXPECT_NEAR(shares, 1, 1e-6);
+    EXPECT_FALSE(denoised.contains("device")); // the processor has filtered
+}
+
+// Stands in for one that filters on a device.
+class EngineWithDevice final : public FakeEngine {
+  public:
+    DenoisedPicture denoiseHalves(const image::DenoiseInput& halves, bool details, std::uint32_t threads) override {
+        DenoisedPicture result = FakeEngine::denoiseHalves(halves, details, threads);
+        result.device = "a device";
+        result.passes = {{"fit", 0.25}};
+        return result;
+    }
+};
+
+TEST_F(SessionDenoise, TellsWhichDeviceHasFiltered) {
+    const Options asked = options({"--spp", "16", "--denoise", "-o", path("a.pfm"), "--stats", path("stats.json")});
+    runSession(asked, [] { return std::make_unique<EngineWithDevice>(); });
+    const nlohmann::json denoised = statistics()["denoised"];
+    EXPECT_EQ(denoised["device"], "a device");
+    EXPECT_EQ(denoised["device_seconds"]["fit"], 0.25);
 }
 
 TEST_F(SessionDenoise, OnlyReplacesTheRawPicture) {

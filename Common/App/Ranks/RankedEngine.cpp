@@ -11,6 +11,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
 #include "Common/Image/SamplePlan.h"
+#include "Common/Render/PictureDenoiser.h"
 #include "Common/Render/RenderParams.h"
 #include "Common/Render/Stopwatch.h"
 
@@ -59,6 +60,10 @@ class RankedEngine final : public Engine {
     AovImages renderAovs(const AovRequest& request, std::uint32_t samples) override {
         localRank_.reset(); // its engine is free then
         return local_->renderAovs(request, samples);
+    }
+    DenoisedPicture denoiseHalves(const image::DenoiseInput& halves, bool details, std::uint32_t threads) override {
+        localRank_.reset();
+        return local_->denoiseHalves(halves, details, threads);
     }
     EngineReport report() const override;
 

@@ -1,10 +1,11 @@
 #include "Common/App/Session/DenoiseFilm.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "Common/Core/Error.h"
 #include "Common/Image/Denoise/FilmHalves.h"
-#include "Common/Render/RenderParams.h"
+#include "Common/Render/PictureDenoiser.h"
 #include "Common/Render/Stopwatch.h"
 
 namespace rt::app {
@@ -40,12 +41,13 @@ image::Denoised FilmDenoiser::denoise(const image::Film& film) {
         for (image::Image* image : {&input.halfA, &input.halfB, &input.albedo, &input.normal, &input.depth})
             *image = cropped(*image, *options_.region);
     }
-    image::Denoised result = image::denoise(input, dependentSide(engine_.report().features), options_.threads);
+    DenoisedPicture filtered = engine_.denoiseHalves(input, options_.wants(Aov::DenoisedError), options_.threads);
+    image::Denoised& images = filtered.images;
     if (options_.region)
-        for (image::Image* image : {&result.picture, &result.halfA, &result.halfB, &result.error, &result.bandwidth})
-            *image = placed(*image, *options_.region, film.desc().width, film.desc().height);
-    figures_ = {result.relmse, watch.seconds(), result.shares};
-    return result;
+        for (image::Image* image : {&images.picture, &images.halfA, &images.halfB, &images.error, &images.bandwidth})
+            if (!image->data.empty()) *image = placed(*image, *options_.region, film.desc().width, film.desc().height);
+    figures_ = {images.relmse, watch.seconds(), images.shares, filtered.device, filtered.passes};
+    return std::move(images);
 }
 
 } // namespace rt::app

@@ -2,11 +2,14 @@
 #pragma once
 #include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "Common/App/Options/Options.h"
 #include "Common/Image/Denoise/Denoiser.h"
 #include "Common/Image/Film.h"
 #include "Common/Render/Engine.h"
+#include "Common/Render/PictureDenoiser.h"
 
 namespace rt::app {
 
@@ -15,6 +18,8 @@ struct DenoiseFigures {
     image::RelMseEstimate relmse;
     double seconds = 0; // of features and filter
     std::array<double, image::kDenoiseCandidates> shares{};
+    std::string device{}; // as of a DenoisedPicture
+    std::vector<DenoisePassTime> passes{};
 };
 
 class FilmDenoiser {

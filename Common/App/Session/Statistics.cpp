@@ -57,6 +57,7 @@ Json errorJson(const image::ErrorFigures& error) {
 }
 
 // Shares of the pixels that kept each bandwidth, in standard deviations of the noise; "raw": those left as they are.
+// The device, and how long it took for each pass, unless the processor has filtered.
 Json denoisedJson(const DenoiseFigures& figures) {
     Json shares = Json::array();
     for (std::uint32_t i = 0; i < shared::kDenoiseBandwidths; ++i) {
@@ -65,11 +66,15 @@ Json denoisedJson(const DenoiseFigures& figures) {
                           {"patch_pixels", 2 * candidate.patchReach + 1},
                           {"share", figures.shares[i]}});
     }
-    return {{"estimated_relmse", figures.relmse.value},
-            {"estimated_relmse_interval", {figures.relmse.low(), figures.relmse.high()}},
-            {"seconds", figures.seconds},
-            {"bandwidths", shares},
-            {"raw_share", figures.shares.back()}};
+    Json json = {{"estimated_relmse", figures.relmse.value},
+                 {"estimated_relmse_interval", {figures.relmse.low(), figures.relmse.high()}},
+                 {"seconds", figures.seconds},
+                 {"bandwidths", shares},
+                 {"raw_share", figures.shares.back()}};
+    if (figures.device.empty()) return json;
+    json["device"] = figures.device;
+    for (const DenoisePassTime& pass : figures.passes) json["device_seconds"][pass.name] = pass.seconds;
+    return json;
 }
 
 Json windowJson(const WindowFigures& window, const EngineReport& report) {

@@ -1,5 +1,5 @@
-// What the denoiser fits radiance by: features of the surface in sight and the position, as both engines scale and bound
-// them. See docs/denoising.md.
+// What the denoiser fits radiance by: features of the surface in sight and the position, as both engines scale and
+// bound them. See docs/denoising.md.
 #ifndef RT_SHARED_DENOISE_FIT_H
 #define RT_SHARED_DENOISE_FIT_H
 #include "Common/Shared/Base/Elementary.h"

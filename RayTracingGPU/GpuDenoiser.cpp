@@ -1,0 +1,108 @@
+#include "RayTracingGPU/GpuDenoiser.h"
+
+#include <cstddef>
+#include <utility>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
+#include "Common/Render/Stopwatch.h"
+#include "Common/Vulkan/Check.h"
+
+namespace rt::gpu {
+
+DeviceDenoiser& GpuDenoiser::of(std::uint32_t width, std::uint32_t height, bool& isNew) {
+    isNew = !picture_ || width_ != width || height_ != height;
+    if (!isNew) return *picture_;
+    width_ = width;
+    height_ = height;
+    picture_.reset(); // its memory may be needed
+    return picture_.emplace(context_, pipelines_, width, height);
+}
+
+void GpuDenoiser::report(app::DenoisedPicture& result) const {
+    result.device = context_.info().name;
+    for (std::size_t i = 0; i < kDenoisePasses; ++i)
+        if (const double seconds = picture_->passSeconds()[i]; seconds > 0)
+            result.passes.push_back({kDenoisePassNames[i], seconds});
+}
+
+app::DenoisedPicture GpuDenoiser::denoise(const image::DenoiseInput& input, std::uint32_t dependentSide, bool details) {
+    const app::Stopwatch watch;
+    bool isNew = false;
+    DeviceDenoiser& device = of(input.halfA.width, input.halfA.height, isNew);
+    device.setSurfaces(input.albedo, input.normal, input.depth);
+    device.setHalves(input.halfA, input.halfB);
+    if (!device.run(input.samplesOfHalf, dependentSide, interruptionFlag())) throw Interrupted();
+    app::DenoisedPicture result;
+    result.images = device.read(details);
+    report(result);
+    result.seconds = watch.seconds();
+    return result;
+}
+
+namespace {
+
+class FilmDenoiser final : public app::PictureDenoiser {
+  public:
+    FilmDenoiser(app::Engine& engine, FilmOnDevice& film, std::uint32_t width, std::uint32_t height)
+        : engine_(engine), film_(film), width_(width), height_(height) {}
+
+    bool isQuick() const override { return !byHost_ || byHost_->isQuick(); }
+
+    std::optional<app::DenoisedPicture> denoise(const app::DenoiseRequest& request,
+                                                const std::atomic<bool>& cancel) override {
+        try {
+            if (!byHost_) return onDevice(request, cancel);
+        } catch (const vulkan::DeviceLostError&) {
+            throw;
+        } catch (const RenderError&) {
+            byHost_ = app::makeHostDenoiser(engine_);
+        }
+        return byHost_->denoise(request, cancel);
+    }
+
+  private:
+    std::optional<app::DenoisedPicture> onDevice(const app::DenoiseRequest& request, const std::atomic<bool>& cancel) {
+        const app::Stopwatch watch;
+        bool isNew = false;
+        DeviceDenoiser& device = film_.denoiser().of(width_, height_, isNew);
+        const std::uint64_t samplesOfHalf = film_.resolveHalves(device.halves());
+        if (samplesOfHalf == 0) {
+            const auto elsewhere = app::makeHostDenoiser(engine_); // a part of the film may be on the host
+            return elsewhere->denoise(request, cancel);
+        }
+        if (isNew || surfaceSamples_ < request.featureSamples) {
+            surfaceSamples_ = 0;
+            if (!film_.renderSurfaces(request.featureSamples, device.surfaces(), cancel)) return std::nullopt;
+            device.surfacesChanged();
+            surfaceSamples_ = request.featureSamples;
+        }
+        app::DenoisedPicture result;
+        result.quality = request.quality;
+        if (request.quality == app::DenoiseQuality::Live) {
+            device.runLive();
+            result.images.picture = device.readLive();
+        } else {
+            if (!device.run(samplesOfHalf, film_.dependentSide(), &cancel)) return std::nullopt;
+            result.images = device.read(request.details);
+        }
+        film_.denoiser().report(result);
+        result.seconds = watch.seconds();
+        return result;
+    }
+
+    app::Engine& engine_;
+    FilmOnDevice& film_;
+    std::uint32_t width_, height_;
+    std::uint32_t surfaceSamples_ = 0;             // of the surfaces that are on the device
+    std::unique_ptr<app::PictureDenoiser> byHost_; // once the device has failed
+};
+
+} // namespace
+
+std::unique_ptr<app::PictureDenoiser> makeFilmDenoiser(app::Engine& engine, FilmOnDevice& film, std::uint32_t width,
+                                                       std::uint32_t height) {
+    return std::make_unique<FilmDenoiser>(engine, film, width, height);
+}
+
+} // namespace rt::gpu

@@ -1,0 +1,99 @@
+// Denoised pictures of films that an engine has on its device, against those that the processor makes of them.
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "Common/App/Session/SceneSource.h"
+#include "Common/Image/Denoise/FilmHalves.h"
+#include "Common/Image/Metrics.h"
+#include "Common/Render/PictureDenoiser.h"
+#include "RayTracingGPU/GpuEngine.h"
+#include "tests/cross/Device.h"
+
+namespace rt::test {
+namespace {
+
+const std::atomic<bool> kNever{false};
+
+class GpuDenoiseTest : public ::testing::Test {
+  protected:
+    std::unique_ptr<app::Engine> start(bool adaptive = false) {
+        app::RenderSettings settings;
+        settings.width = 52;
+        settings.height = 37;
+        settings.spp = adaptive ? 64 : 8;
+        settings.sppIsKnown = true;
+        settings.replicates = 2;
+        settings.adaptive = adaptive;
+        const auto scene = app::compile(app::loadScene("cornell-box-lights"), true);
+        auto engine = gpu::makeGpuEngine(
+            device(),
+            {.pipelineCache = false, .engine = app::GpuEngineKind::Compute, .denoisesInSoftware = inSoftware_});
+        engine->setScene(scene, nullptr);
+        engine->reset(scene->camera, settings);
+        return engine;
+    }
+    bool inSoftware_ = true;
+    static void finish(app::Engine& engine) {
+        while (!engine.renderSome({}).finished) continue;
+    }
+    static void expectTheSame(app::Engine& engine, const app::DenoiseRequest& request) {
+        const auto got = engine.makeDenoiser()->denoise(request, kNever);
+        const auto expected = app::makeHostDenoiser(engine)->denoise(request, kNever);
+        ASSERT_TRUE(got && expected);
+        EXPECT_EQ(got->quality, request.quality);
+        EXPECT_FALSE(got->device.empty());
+        EXPECT_TRUE(expected->device.empty());
+        EXPECT_LE(image::compare(got->images.picture, expected->images.picture).relmse, 1e-4);
+        EXPECT_EQ(got->images.halfA.data.size(), expected->images.halfA.data.size());
+    }
+};
+
+TEST_F(GpuDenoiseTest, FiltersTheFilmWhereItIs) {
+    const auto engine = start();
+    const std::atomic<bool> now{true};
+    const auto before = engine->report().deviceBytes;
+    EXPECT_FALSE(engine->makeDenoiser()->denoise({}, kNever)); // there are no samples
+    EXPECT_GT(engine->report().deviceBytes, before);
+    EXPECT_TRUE(engine->makeDenoiser()->isQuick()); // the film need not be copied
+    finish(*engine);
+    expectTheSame(*engine, {app::DenoiseQuality::Live, false, 1});
+    expectTheSame(*engine, {app::DenoiseQuality::Final, true, app::kAovSamples});
+    EXPECT_FALSE(engine->makeDenoiser()->denoise({}, now));
+}
+
+TEST_F(GpuDenoiseTest, FiltersAnAdaptiveFilm) {
+    const auto engine = start(true);
+    finish(*engine);
+    ASSERT_TRUE(engine->film().hasPlan());
+    expectTheSame(*engine, {});
+}
+
+TEST_F(GpuDenoiseTest, LeavesItToTheProcessorWhereThatIsTheDevice) {
+    inSoftware_ = false;
+    const auto engine = start();
+    finish(*engine);
+    const app::DenoisedPicture got = engine->denoiseHalves(image::filmHalves(engine->film()), false, 1);
+    EXPECT_EQ(got.device.empty(), device().info().isSoftware());
+    EXPECT_EQ(engine->makeDenoiser()->isQuick(), !device().info().isSoftware());
+}
+
+// What --denoise asks for.
+TEST_F(GpuDenoiseTest, FiltersHalvesOfTheHost) {
+    const auto engine = start();
+    finish(*engine);
+    const image::DenoiseInput input = image::filmHalves(engine->film());
+    const app::DenoisedPicture got = engine->denoiseHalves(input, false, 1);
+    const app::DenoisedPicture expected = engine->Engine::denoiseHalves(input, false, 1);
+    EXPECT_EQ(got.device, device().info().name);
+    EXPECT_FALSE(got.passes.empty());
+    EXPECT_TRUE(expected.device.empty());
+    EXPECT_TRUE(got.images.error.data.empty());
+    EXPECT_LE(image::compare(got.images.picture, expected.images.picture).relmse, 1e-4);
+    EXPECT_NEAR(got.images.relmse.value, expected.images.relmse.value, 0.02 * expected.images.relmse.value);
+}
+
+} // namespace
+} // namespace rt::test
