@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
 #include "Common/Image/Denoise/FilmHalves.h"
 #include "Common/Render/PictureDenoiser.h"
 #include "Common/Render/Stopwatch.h"
@@ -30,6 +31,7 @@ image::Image placed(const image::Image& part, const Region& region, std::uint32_
 image::Denoised FilmDenoiser::denoise(const image::Film& film) {
     if (const std::string why = image::whyNoHalves(film); !why.empty()) throw InputError("the film " + why);
     const Stopwatch watch;
+    const Interruptible byNobody(nullptr); // of a render that was stopped, too, what there is is filtered
     // Also where the render itself has fewer: they cost little, and noise in features is noise in the picture.
     if (!features_) features_ = engine_.renderAovs({true, true, true}, kAovSamples);
     image::DenoiseInput input = image::filmHalves(film);
