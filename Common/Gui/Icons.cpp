@@ -135,8 +135,7 @@ bool iconButton(const char* id, Icon icon, const char* tip, Usable usable, bool 
     return toggleButton(id, icon, "", tip, usable, isOn, ImGui::GetFrameHeight());
 }
 
-bool toggleButton(const char* id, Icon icon, const char* text, const char* tip, Usable usable, bool isOn,
-                  float width) {
+bool toggleButton(const char* id, Icon icon, const char* text, const char* tip, Usable usable, bool isOn, float width) {
     const float side = ImGui::GetFrameHeight(), size = kIconShare * side;
     ImGui::PushID(id);
     if (isOn) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));

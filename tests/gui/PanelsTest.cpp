@@ -223,12 +223,12 @@ TEST_P(SharedPanelsTest, TheToolbarDoesWhatItShows) {
     start({"--width", "48", "--spp", "4", "--engine", isGpu() ? "compute" : "multi"});
     ASSERT_FALSE(HasFatalFailure());
     EXPECT_TRUE(eventually([&] {
-        click(750, 16); // Save: too early where there is no picture yet
+        click(986, 16); // Save: too early where there is no picture yet
         return isSaved(".png") && isSaved(".exr");
     })) << log();
-    click(721, 16); // A/B
+    click(957, 16); // A/B
     EXPECT_TRUE(eventually([&] { return screenshot().at(826, 300) == 0xffffff; }));
-    click(721, 16);
+    click(957, 16);
     EXPECT_TRUE(eventually([&] { return screenshot().at(826, 600) != 0xffffff; }));
     const auto line = [this] {
         const Screenshot shot = screenshot();

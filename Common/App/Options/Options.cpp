@@ -1,7 +1,6 @@
 #include "Common/App/Options/Options.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "Common/App/Options/Description.h"
@@ -32,7 +31,6 @@ constexpr std::uint32_t kMaxDepth = 4096;
 constexpr std::uint32_t kMaxReplicates = 1024;
 constexpr std::uint32_t kMaxThreads = 4096;
 constexpr std::uint32_t kMaxShares = 1u << 20;
-constexpr std::uint32_t kDefaultWidth = 600;
 constexpr const char* kNoValue = ""; // of a flag that may have one
 constexpr double kMaxAspect = image::kMaxImageSide;
 
@@ -326,12 +324,6 @@ void settleValidation(const ParsedFlags& parsed) {
         throw UsageError("--validation: a flag of ray-tracing-gpu, or of a window");
 }
 
-std::uint32_t rounded(double pixels, const std::string& what) {
-    if (!(pixels < image::kMaxImageSide + 0.5))
-        throw UsageError(what + ": makes an image larger than 16384 pixels a side");
-    return std::max(1u, static_cast<std::uint32_t>(std::lround(pixels)));
-}
-
 } // namespace
 
 OptionParser::OptionParser(const std::string& program)
@@ -386,28 +378,6 @@ std::optional<Options> parseOptions(const std::string& program, std::vector<std:
 
 std::string checkpointBeside(const std::string& output) {
     return output + ".rtc";
-}
-
-void settleImageSize(Options& options, const std::string& scene, double sceneAspect) {
-    const auto& [width, height, aspect] = options.size;
-    const double ratio = aspect.value_or(sceneAspect);
-    std::uint32_t& w = options.settings.width;
-    std::uint32_t& h = options.settings.height;
-    if (width && height) {
-        w = *width;
-        h = *height;
-        if (aspect && rounded(w / ratio, "--aspect") != h && rounded(h * ratio, "--aspect") != w)
-            throw UsageError("--aspect: contradicts --width " + std::to_string(w) + " --height " + std::to_string(h));
-    } else if (height) {
-        h = *height;
-        w = rounded(h * ratio, "--height " + std::to_string(h));
-    } else {
-        if (!width && !aspect && kDefaultWidth / sceneAspect >= image::kMaxImageSide + 0.5)
-            throw InputError(scene + ": an aspect of " + std::to_string(sceneAspect) +
-                             " makes an image larger than 16384 pixels a side");
-        w = width.value_or(kDefaultWidth);
-        h = rounded(w / ratio, "--width " + std::to_string(w));
-    }
 }
 
 } // namespace rt::app
