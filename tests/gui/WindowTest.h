@@ -72,7 +72,7 @@ class WindowTest : public Desktop, public testing::WithParamInterface<const char
     }
     // A scene file of this title, good to be opened.
     std::filesystem::path writeScene(const std::string& name, const std::string& title) const {
-        const std::filesystem::path file = folder_ / name;
+        std::filesystem::path file = folder_ / name;
         std::ofstream(file) << R"({"version": 1, "title": ")" << title << R"(",
             "camera": {"look_from": [0, 0, 3], "look_at": [0, 0, 0]},
             "background": {"type": "gradient", "bottom": [1, 1, 1], "top": [0.5, 0.7, 1]},

@@ -1,4 +1,5 @@
 // What a user asks of the windows, by the texts on them.
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -46,9 +47,8 @@ class WishesTest : public WindowTest {
             kSeen);
     }
     bool hasSetting(const std::string& value) const {
-        for (const auto& [key, stored] : settings().flatten().items())
-            if (stored == value) return true;
-        return false;
+        const nlohmann::json all = settings().flatten();
+        return std::any_of(all.begin(), all.end(), [&](const nlohmann::json& stored) { return stored == value; });
     }
 };
 INSTANTIATE_TEST_SUITE_P(, WishesTest, kBothPrograms, nameOfProgram);

@@ -116,7 +116,9 @@ class Divider {
 
     void keep(const glm::uvec3& t) {
         const glm::dvec3 &a = places_[t.x], &b = places_[t.y], &c = places_[t.z];
-        pieces_.push_back({t, longestEdge(a, b, c), exceeds(a, b, c, kPieceRatio)});
+        // What no float represents is dropped later and has no edges to compare.
+        const bool isUsable = representable(a) && representable(b) && representable(c);
+        pieces_.push_back({t, isUsable ? longestEdge(a, b, c) : 0, exceeds(a, b, c, kPieceRatio)});
     }
 
     // The longest edge of each piece that is still huge; false if none is.
