@@ -129,7 +129,7 @@ TEST(ImageIoHostile, SaysWhatIsNotSupported) {
               std::string::npos);
     EXPECT_NE(errorOf("lab.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_lab\n\n-Y 1 +X 1\n1234").find("32-bit_rle_xyze"),
               std::string::npos);
-    EXPECT_NE(errorOf("turned.hdr", "#?RADIANCE\n\n+X 1 -Y 1\n1234").find("-Y height +X width"), std::string::npos);
+    EXPECT_NE(errorOf("twice.hdr", "#?RADIANCE\n\n+X 1 -X 1\n1234").find("-Y height +X width"), std::string::npos);
     EXPECT_NE(errorOf("text.png", "this is text"), "");
 }
 

@@ -47,7 +47,7 @@ TEST_F(InteractiveFilesTest, ModelsThatAreDroppedBecomeTheScene) {
         const SessionState state = session.state();
         EXPECT_EQ(state.source, file.string());
         EXPECT_EQ(state.scene->id, file.filename().string());
-        EXPECT_EQ(state.scene->triangles.size(), 1u);
+        EXPECT_EQ(state.scene->meshes.at(0).triangleCount, 1u); // the studio follows
         EXPECT_EQ(state.scene->materials.at(0).kind,
                   file.extension() == ".obj" ? shared::kMaterialLambertian : shared::kMaterialPrincipled);
     }
