@@ -14,7 +14,9 @@
 #include "Denoise.glsl"
 
 layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
-layout(constant_id = 0) const int kFitFeatures = kDenoiseFeatures; // of this pipeline
+// Of this pipeline. Loops end at kDenoiseFeatures all the same: drivers that unroll none that end at a specialization
+// constant would keep the sums in memory.
+layout(constant_id = 0) const int kFitFeatures = kDenoiseFeatures;
 
 const int kAtOnce = 8; // offsets
 const int kPatchSide = 2 * kDenoisePatchReach + 1;
@@ -115,8 +117,8 @@ int productOf(int row, int column) {
 
 // Adds one that is in reach, but for products with the way down, which is the same for all of a row.
 void add(inout Equations sums, float weight, float features[kDenoiseFeatures], vec3 radiance) {
-    [[unroll]] for (int i = 0; i < kFitFeatures; i++) {
-        if (i == kDown) continue;
+    [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++) {
+        if (i >= kFitFeatures || i == kDown) continue;
         float weighed = weight * features[i];
         [[unroll]] for (int j = 0; j <= i; j++) {
             if (j != kDown) sums.products[productOf(i, j)] += weighed * features[j];
@@ -129,7 +131,8 @@ void add(inout Equations sums, float weight, float features[kDenoiseFeatures], v
 // that over all rows up to y. Then the sum of y a(y) is R s(R) less the sum of s(y) over the rows but the last, and
 // that of y^2 a(y) is R^2 s(R) less the sum of (2 y + 1) s(y). This is what the end of a row takes off.
 void endRow(inout Equations sums, int y) {
-    [[unroll]] for (int i = 0; i < kFitFeatures; i++) {
+    [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++) {
+        if (i >= kFitFeatures) continue;
         float row = sums.products[productOf(i, 0)];
         if (i == kDown) continue;
         sums.products[productOf(max(i, kDown), min(i, kDown))] -= row;
@@ -141,8 +144,8 @@ void endRows(inout Equations sums) {
     const float kReach = float(kDenoiseReach);
     sums.products[productOf(kDown, kDown)] += kReach * kReach * sums.products[0];
     sums.products[productOf(kDown, kDown)] *= kDenoisePixel * kDenoisePixel;
-    [[unroll]] for (int i = 0; i < kFitFeatures; i++) {
-        if (i == kDown) continue;
+    [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++) {
+        if (i >= kFitFeatures || i == kDown) continue;
         int product = productOf(max(i, kDown), min(i, kDown));
         sums.products[product] = kDenoisePixel * (sums.products[product] + kReach * sums.products[productOf(i, 0)]);
     }
@@ -155,32 +158,39 @@ void solve(Equations sums, float features[kDenoiseFeatures], out float x[kDenois
     float l[kProducts] = sums.products;
     float inverse[kDenoiseFeatures];
     l[0] += kDenoiseTiny;
-    [[unroll]] for (int i = 1; i < kFitFeatures; i++) l[productOf(i, i)] += kDenoiseRidge * l[0] + kDenoiseTiny;
+    [[unroll]] for (int i = 1; i < kDenoiseFeatures; i++)
+        if (i < kFitFeatures) l[productOf(i, i)] += kDenoiseRidge * l[0] + kDenoiseTiny;
     float diagonal[kDenoiseFeatures];
-    [[unroll]] for (int i = 0; i < kFitFeatures; i++) {
+    [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++) {
+        if (i >= kFitFeatures) continue;
         float d = l[productOf(i, i)];
         [[unroll]] for (int k = 0; k < i; k++) d -= l[productOf(i, k)] * l[productOf(i, k)] * diagonal[k];
         diagonal[i] = max(d, 1.0e-7f); // rounding must not make it negative
         inverse[i] = 1.0f / diagonal[i];
-        [[unroll]] for (int j = i + 1; j < kFitFeatures; j++) {
+        [[unroll]] for (int j = i + 1; j < kDenoiseFeatures; j++) {
+            if (j >= kFitFeatures) continue;
             float sum = l[productOf(j, i)];
             [[unroll]] for (int k = 0; k < i; k++) sum -= l[productOf(j, k)] * l[productOf(i, k)] * diagonal[k];
             l[productOf(j, i)] = sum * inverse[i];
         }
     }
-    [[unroll]] for (int i = 0; i < kFitFeatures; i++) {
+    [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++) {
+        if (i >= kFitFeatures) continue;
         x[i] = features[i];
         [[unroll]] for (int j = 0; j < i; j++) x[i] -= l[productOf(i, j)] * x[j];
     }
-    [[unroll]] for (int i = kFitFeatures - 1; i >= 0; i--) {
+    [[unroll]] for (int i = kDenoiseFeatures - 1; i >= 0; i--) {
+        if (i >= kFitFeatures) continue;
         x[i] *= inverse[i];
-        [[unroll]] for (int j = i + 1; j < kFitFeatures; j++) x[i] -= l[productOf(j, i)] * x[j];
+        [[unroll]] for (int j = i + 1; j < kDenoiseFeatures; j++)
+            if (j < kFitFeatures) x[i] -= l[productOf(j, i)] * x[j];
     }
 }
 
 float fitted(float x[kDenoiseFeatures], float features[kDenoiseFeatures]) {
     float sum = 0.0f;
-    [[unroll]] for (int i = 0; i < kFitFeatures; i++) sum += x[i] * features[i];
+    [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++)
+        if (i < kFitFeatures) sum += x[i] * features[i];
     return sum;
 }
 
@@ -276,8 +286,8 @@ void main() {
     [[unroll]] for (uint candidate = 0u; candidate < kDenoiseBandwidths; candidate++) {
         solve(sums[candidate], own, x[candidate]);
         values[candidate] = vec3(0.0f);
-        [[unroll]] for (int i = 0; i < kFitFeatures; i++)
-            values[candidate] += x[candidate][i] * sums[candidate].radiance[i];
+        [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++)
+            if (i < kFitFeatures) values[candidate] += x[candidate][i] * sums[candidate].radiance[i];
         factors[candidate] = vec2(fitted(x[candidate], own), 0.0f); // the pixel's own weight is 1
     }
     if (launch.dependentSide != 1u) addPartners(place, x, factors);
