@@ -61,7 +61,7 @@ class EnginePair {
 
     // First-hit features of what was rendered last.
     std::vector<Pair> features() {
-        app::AovRequest all{true, true, true};
+        app::AovRequest all{{true, true, true}};
         all.wide = {true, true, true};
         all.emission = true;
         app::AovImages cpu = cpu_->renderAovs(all, 4);

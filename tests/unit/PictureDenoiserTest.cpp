@@ -33,7 +33,7 @@ TEST_F(PictureDenoiserTest, FinalIsWhatDenoiseWrites) {
     const auto result = denoiser_->denoise({DenoiseQuality::Final, true}, kGoOn);
     ASSERT_TRUE(result);
     image::DenoiseInput input = image::filmHalves(engine_.film());
-    const AovImages features = engine_.renderAovs({true, true, true}, kAovSamples);
+    const AovImages features = engine_.renderAovs({{true, true, true}}, kAovSamples);
     input.albedo = features.albedo;
     input.normal = features.normal;
     input.depth = features.depth;
