@@ -285,7 +285,7 @@ TEST_P(GpuEngineTest, KernelsAreNamedByTheirFeatures) {
 
 TEST_P(GpuEngineTest, FirstHitFeatures) {
     Render render(settingsFor(1));
-    const app::AovImages images = render.engine->renderAovs({true, true, true}, 4);
+    const app::AovImages images = render.engine->renderAovs({{true, true, true}}, 4);
     ASSERT_EQ(images.albedo.data.size(), std::size_t{kSide} * kSide * 3);
     ASSERT_EQ(images.depth.data.size(), std::size_t{kSide} * kSide);
     const float* normal = images.normal.pixel(kSide / 2, kSide / 2); // of the back wall

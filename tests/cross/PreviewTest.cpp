@@ -50,7 +50,7 @@ app::AovImages firstHits(const Scene& scene, scene::CameraDesc camera, std::uint
     settings.lightSampling = app::LightSampling::Bsdf; // of the paths, which are not traced, the smallest shader
     const auto engine = makeEngine(still);
     engine->reset(camera, settings);
-    return engine->renderAovs({true, true, true}, 1);
+    return engine->renderAovs({{true, true, true}}, 1);
 }
 
 struct Range {

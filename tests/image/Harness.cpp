@@ -161,8 +161,8 @@ void expectDepthOfWhatIsHit(app::Engine& engine) {
     const auto compiled = scene::compileScene(desc);
     engine.setScene(compiled, nullptr);
     engine.reset(compiled->camera, smallSettings(kSide, kReplicates));
-    const app::AovImages images = engine.renderAovs({true, false, true}, 64);
-    const app::AovImages rows = engine.renderAovs({false, false, true, 5, 3}, 64);
+    const app::AovImages images = engine.renderAovs({{true, false, true}}, 64);
+    const app::AovImages rows = engine.renderAovs({{false, false, true}, 5, 3}, 64);
     EXPECT_EQ(rows.depth.data, std::vector<float>(images.depth.pixel(0, 5), images.depth.pixel(0, 8)));
 
     const double pixel = 2 * std::tan(std::numbers::pi / 6) / kSide; // at distance 1

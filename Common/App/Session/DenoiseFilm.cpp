@@ -33,7 +33,7 @@ image::Denoised FilmDenoiser::denoise(const image::Film& film) {
     const Stopwatch watch;
     const Interruptible byNobody(nullptr); // of a render that was stopped, too, what there is is filtered
     // Also where the render itself has fewer: they cost little, and noise in features is noise in the picture.
-    if (!features_) features_ = engine_.renderAovs({true, true, true}, kAovSamples);
+    if (!features_) features_ = engine_.renderAovs({{true, true, true}}, kAovSamples);
     image::DenoiseInput input = image::filmHalves(film);
     input.albedo = features_->albedo;
     input.normal = features_->normal;
