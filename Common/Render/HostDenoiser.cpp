@@ -72,8 +72,9 @@ class HostDenoiser final : public PictureDenoiser {
         if (samples != comingSamples_) {
             comingSamples_ = samples;
             comingRows_ = 0;
-            coming_ = {image::Image(size.width, size.height, 3), image::Image(size.width, size.height, 3),
-                       image::Image(size.width, size.height, 1)};
+            coming_ = {};
+            coming_.albedo = coming_.normal = image::Image(size.width, size.height, 3);
+            coming_.depth = image::Image(size.width, size.height, 1);
         }
         std::uint32_t step = 1;
         while (comingRows_ < size.height) {

@@ -202,7 +202,7 @@ void expectSurfacesInMirrors(app::Engine& engine) {
     const auto compiled = scene::compileScene(desc);
     engine.setScene(compiled, nullptr);
     engine.reset(compiled->camera, smallSettings(kSide, kReplicates));
-    app::AovRequest request{false, false, true};
+    app::AovRequest request{{false, false, true}};
     request.wide = {true, true, true};
     request.emission = true;
     const app::AovImages images = engine.renderAovs(request, 16);

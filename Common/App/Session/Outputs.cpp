@@ -82,7 +82,7 @@ ImageRows rowsOf(Aov aov, const image::Film& film, const AovImages& features, co
 }
 
 AovRequest featuresFor(const Options& options) {
-    AovRequest request{options.wants(Aov::Albedo), options.wants(Aov::Normal), options.wants(Aov::Depth)};
+    AovRequest request{{options.wants(Aov::Albedo), options.wants(Aov::Normal), options.wants(Aov::Depth)}};
     request.wide = {options.wants(Aov::WideAlbedo), options.wants(Aov::WideNormal), options.wants(Aov::WideDepth)};
     request.emission = options.wants(Aov::Emission);
     return request;
