@@ -124,7 +124,6 @@ TEST_P(SharedWishesTest, WhatIsGreySaysWhy) {
     EXPECT_TRUE(explains("Reload on change", "the scene is built in", kPanels));
     key("F3");
     EXPECT_TRUE(explains("Hide", "no run is selected"));
-    EXPECT_TRUE(explains("Unhide", "no run is hidden"));
     expectCleanEnd();
 }
 
