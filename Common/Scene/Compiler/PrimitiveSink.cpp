@@ -20,6 +20,7 @@ namespace rt::scene {
 namespace {
 
 constexpr double kMinRadius = 1e-9;
+constexpr std::size_t kPieces = 4096; // room for what huge surfaces are divided into: arrays that grow are copied
 
 bool isExcluded(Part part, bool isShareable) {
     return part == Part::Shared ? !isShareable : part == Part::Rest && isShareable;
@@ -91,13 +92,13 @@ std::uint32_t PrimitiveSink::appendLight(shared::Light light, std::uint32_t mate
 void PrimitiveSink::expect(const PrimitiveCounts& counts) {
     reserveLarge(out_.spheres, counts.spheres);
     reserveLarge(out_.quads, counts.quads);
-    reserveLarge(out_.triangles, counts.triangles);
-    reserveLarge(out_.triangleMesh, counts.triangles);
-    reserveLarge(out_.positions, counts.positions);
-    reserveLarge(out_.normals, counts.normals);
-    reserveLarge(out_.uvs, counts.uvs);
-    reserveLarge(out_.colors, counts.colors);
-    reserveLarge(out_.tangents, counts.tangents);
+    reserveLarge(out_.triangles, counts.triangles + kPieces);
+    reserveLarge(out_.triangleMesh, counts.triangles + kPieces);
+    reserveLarge(out_.positions, counts.positions + kPieces);
+    reserveLarge(out_.normals, counts.normals + kPieces);
+    reserveLarge(out_.uvs, counts.uvs + kPieces);
+    reserveLarge(out_.colors, counts.colors + kPieces);
+    reserveLarge(out_.tangents, counts.tangents + kPieces);
 }
 
 // ---- spheres -------------------------------------------------------------------------------------------------------
