@@ -11,15 +11,10 @@
 #include "Common/Bench/Suite.h"
 #include "Common/Core/BuildInfo.h"
 #include "Common/Core/Error.h"
-#include "Common/Manual/Help.h"
+#include "Common/Manual/Parse.h"
 
 namespace rt::bench {
 namespace {
-
-std::string oneLine(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
 
 void checkEngines(const std::vector<std::string>& engines) {
     for (const std::string& engine : engines)
@@ -115,20 +110,9 @@ std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& ar
     CLI::App app{kBenchDescription, kBenchProgram};
     BenchFlags flags;
     addBenchFlags(app, flags);
-    try {
-        app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend())); // the order that CLI11 takes
-    } catch (const CLI::CallForHelp&) {
-        out << manual::helpText(benchPageOf(app));
+    if (!manual::parse(
+            app, arguments, [&] { return benchPageOf(app); }, out))
         return std::nullopt;
-    } catch (const CLI::CallForAllHelp&) {
-        out << manual::fullHelpText(benchPageOf(app));
-        return std::nullopt;
-    } catch (const CLI::CallForVersion& version) {
-        out << version.what() << '\n';
-        return std::nullopt;
-    } catch (const CLI::ParseError& error) {
-        throw UsageError(oneLine(error.what()));
-    }
     BenchOptions& options = flags.options;
     if (flags.quick && app.count("SUITE") > 0 && options.suite != "quick")
         throw UsageError("--quick: " + options.suite + " is another suite");

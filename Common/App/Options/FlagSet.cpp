@@ -8,19 +8,13 @@
 #include "Common/App/Options/ConfigFile.h"
 #include "Common/Core/BuildInfo.h"
 #include "Common/Core/Error.h"
-#include "Common/Manual/Help.h"
+#include "Common/Manual/Parse.h"
 
 namespace rt::app {
 namespace {
 
 std::string firstSpelling(const std::string& flags) {
     return flags.substr(0, flags.find(','));
-}
-
-// CLI11 breaks some messages into lines.
-std::string oneLine(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
 }
 
 } // namespace
@@ -143,22 +137,12 @@ bool FlagSet::parse(std::vector<std::string> arguments, std::ostream& out) {
     config_->setNamed(std::any_of(arguments.begin(), arguments.end(), [](const std::string& argument) {
         return argument == "--config" || argument.starts_with("--config=");
     }));
-    std::reverse(arguments.begin(), arguments.end()); // the order in which CLI11 takes them
     try {
-        app_.parse(std::move(arguments));
-    } catch (const CLI::CallForHelp&) {
-        out << manual::helpText(page());
-        return false;
-    } catch (const CLI::CallForAllHelp&) {
-        out << manual::fullHelpText(page());
-        return false;
-    } catch (const CLI::CallForVersion& version) {
-        out << version.what() << '\n';
-        return false;
+        if (!manual::parse(
+                app_, std::move(arguments), [this] { return page(); }, out))
+            return false;
     } catch (const CLI::FileError&) {
         throw UsageError("--config " + config_->path() + ": cannot be read");
-    } catch (const CLI::ParseError& error) {
-        throw UsageError(oneLine(error.what()));
     }
     if (const auto unknown = app_.remaining(); !unknown.empty())
         throw UsageError(unknown.front() + ": unknown flag; --help-all lists them all");

@@ -8,7 +8,7 @@
 
 #include "Common/Core/BuildInfo.h"
 #include "Common/Core/Error.h"
-#include "Common/Manual/Help.h"
+#include "Common/Manual/Parse.h"
 #include "Common/Render/Names.h"
 
 namespace rt::tools {
@@ -120,26 +120,9 @@ std::optional<ImageArguments> parseImageArguments(const std::vector<std::string>
     CLI::App app{kDescription, kImageTool};
     ImageArguments parsed;
     addCommands(app, parsed);
-    try {
-        app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend())); // the order that CLI11 takes
-    } catch (const CLI::CallForHelp&) {
-        const auto commands = app.get_subcommands(); // at most one: what is asked about
-        const manual::Page page = pageOfCommands(app);
-        const auto isAsked = [&](const manual::Page& command) {
-            return !commands.empty() && command.name == page.name + " " + commands.front()->get_name();
-        };
-        const auto asked = std::find_if(page.commands.begin(), page.commands.end(), isAsked);
-        out << manual::helpText(asked == page.commands.end() ? page : *asked);
+    if (!manual::parse(
+            app, arguments, [&] { return pageOfCommands(app); }, out))
         return std::nullopt;
-    } catch (const CLI::CallForAllHelp&) {
-        out << manual::fullHelpText(pageOfCommands(app));
-        return std::nullopt;
-    } catch (const CLI::CallForVersion& version) {
-        out << version.what() << '\n';
-        return std::nullopt;
-    } catch (const CLI::ParseError& error) {
-        throw UsageError(error.what());
-    }
     if (app.get_subcommands().empty())
         throw UsageError("a subcommand is required: diff, info, convert, denoise or merge");
     parsed.command = app.get_subcommands().front()->get_name();
