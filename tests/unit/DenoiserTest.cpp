@@ -3,8 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <limits>
-#include <random>
 #include <string>
 #include <utility>
 
@@ -12,41 +10,14 @@
 
 #include "Common/Image/Denoise/Denoiser.h"
 #include "Common/Image/Denoise/FilmHalves.h"
+#include "tests/unit/DenoiseInputs.h"
 
 namespace {
 
 using namespace rt::image;
+using namespace rt::test;
 
 constexpr std::uint32_t kSide = 70; // more than two tiles, and not a multiple of one
-
-template <class Radiance>
-Image picture(std::uint32_t width, std::uint32_t height, const Radiance& radiance) {
-    Image image(width, height);
-    for (std::uint32_t y = 0; y < height; ++y)
-        for (std::uint32_t x = 0; x < width; ++x)
-            for (std::uint32_t c = 0; c < 3; ++c) image.pixel(x, y)[c] = radiance(x, y, c);
-    return image;
-}
-
-// Two halves of the picture with exponential noise: as rare and bright as noise of few paths is.
-template <class Radiance>
-DenoiseInput noisyHalves(const Radiance& radiance, std::uint32_t seed, std::uint32_t side = kSide) {
-    std::mt19937 random(seed);
-    std::exponential_distribution<float> noise(1.0f);
-    const auto noisy = [&](std::uint32_t x, std::uint32_t y, std::uint32_t c) {
-        return radiance(x, y, c) * noise(random);
-    };
-    DenoiseInput input;
-    input.halfA = picture(side, side, noisy);
-    input.halfB = picture(side, side, noisy);
-    return input;
-}
-
-DenoiseInput equalHalves(const Image& image) {
-    DenoiseInput input;
-    input.halfA = input.halfB = image;
-    return input;
-}
 
 void expectNear(const Image& got, const Image& expected, double relative) {
     ASSERT_EQ(got.data.size(), expected.data.size());
@@ -66,8 +37,6 @@ double relMse(const Image& image, double truth) {
     for (const float value : image.data) sum += (value - truth) * (value - truth);
     return sum / static_cast<double>(image.data.size()) / (truth * truth + 0.01);
 }
-
-const auto kFlat = [](auto, auto, auto) { return 0.5f; };
 
 } // namespace
 
@@ -89,7 +58,7 @@ TEST(Denoiser, KeepsWhatIsLinearInAFeature) {
     const auto albedo = [](std::uint32_t x, std::uint32_t y, std::uint32_t) {
         return (x / 5 + y / 5) % 2 == 0 ? 0.2f : 0.8f;
     };
-    DenoiseInput input = noisyHalves(albedo, 1);
+    DenoiseInput input = noisyHalves(albedo, 1, kSide);
     const Image truth = picture(kSide, kSide, albedo);
     const auto error = [&truth](const Image& image) {
         double sum = 0;
@@ -121,7 +90,7 @@ TEST(Denoiser, KeepsTheEnergyOfNoiseAndLowersIt) {
     constexpr int kSeeds = 40;
     double sum = 0, gain = 0;
     for (int seed = 0; seed < kSeeds; ++seed) {
-        const DenoiseInput input = noisyHalves(kFlat, 100 + static_cast<std::uint32_t>(seed));
+        const DenoiseInput input = noisyHalves(kGrey, 100 + static_cast<std::uint32_t>(seed), kSide);
         const Denoised result = denoise(input, 1);
         for (const float value : result.picture.data) sum += value;
         gain += 0.25 / 2 / 0.26 / relMse(result.picture, 0.5) / kSeeds;
@@ -137,7 +106,7 @@ TEST(Denoiser, KeepsTheEnergyOfNoiseAndLowersIt) {
 TEST(Denoiser, KnowsItsError) {
     double estimated = 0, measured = 0;
     for (std::uint32_t seed = 0; seed < 6; ++seed) {
-        const Denoised result = denoise(noisyHalves(kFlat, 200 + seed, 200), 1);
+        const Denoised result = denoise(noisyHalves(kGrey, 200 + seed, 200), 1);
         estimated += result.relmse.value;
         measured += relMse(result.picture, 0.5);
     }
@@ -145,37 +114,20 @@ TEST(Denoiser, KnowsItsError) {
     EXPECT_GT(estimated, measured / 1.5);
 }
 
-// A lamp without noise before a noisy wall.
 TEST(Denoiser, KeepsTheEdgeOfALight) {
     constexpr std::uint32_t kEdge = 33;
-    DenoiseInput input = noisyHalves([](auto x, auto, auto) { return x < kEdge ? 0.2f : 0.0f; }, 3);
-    for (Image* half : {&input.halfA, &input.halfB})
-        for (std::uint32_t y = 0; y < kSide; ++y)
-            for (std::uint32_t x = kEdge; x < kSide; ++x)
-                for (std::uint32_t c = 0; c < 3; ++c) half->pixel(x, y)[c] = 15.0f;
-    const Image result = denoise(input, 1).picture;
-    for (std::uint32_t y = 0; y < kSide; ++y) {
-        EXPECT_LT(result.pixel(kEdge - 1, y)[0], 1.5f);
-        EXPECT_NEAR(result.pixel(kEdge, y)[0], 15.0f, 0.15f);
-    }
+    expectTheEdgeOfTheLamp(denoise(lampBeforeAWall(kSide, kEdge), 1).picture, kEdge);
 }
 
 TEST(Denoiser, TakesWhateverAPictureMayHold) {
-    DenoiseInput input = noisyHalves(kFlat, 4);
-    input.halfA.pixel(5, 6)[0] = std::numeric_limits<float>::infinity();
-    input.halfB.pixel(7, 6)[1] = std::numeric_limits<float>::quiet_NaN();
-    input.halfA.pixel(9, 9)[2] = std::numeric_limits<float>::max();
-    input.albedo = picture(kSide, kSide,
-                           [](auto x, auto, auto) { return x == 3 ? std::numeric_limits<float>::quiet_NaN() : 0.5f; });
-    input.depth = Image(kSide, kSide, 1); // nothing is hit
-    expectFinite(denoise(input, 2));
+    expectFinite(denoise(whateverThereMayBe(kSide), 2));
     expectFinite(denoise(equalHalves(Image(kSide, kSide)), 1));
 }
 
 TEST(Denoiser, TakesPicturesOfAnySize) {
     for (const auto& [width, height] :
          {std::pair{1u, 1u}, std::pair{1u, 50u}, std::pair{50u, 1u}, std::pair{33u, 2u}}) {
-        const Image constant = picture(width, height, kFlat);
+        const Image constant = picture(width, height, kGrey);
         for (const std::uint32_t dependentSide : {1u, 2u}) {
             const Denoised result = denoise(equalHalves(constant), dependentSide);
             expectFinite(result);
@@ -185,7 +137,7 @@ TEST(Denoiser, TakesPicturesOfAnySize) {
 }
 
 TEST(Denoiser, HasTheSameBitsForAnyNumberOfThreads) {
-    const DenoiseInput input = noisyHalves([](auto x, auto, auto) { return x < 30 ? 0.1f : 1.0f; }, 5);
+    const DenoiseInput input = noisyHalves([](auto x, auto, auto) { return x < 30 ? 0.1f : 1.0f; }, 5, kSide);
     const Denoised one = denoise(input, 2, 1), many = denoise(input, 2, 5);
     EXPECT_EQ(one.picture.data, many.picture.data);
     EXPECT_EQ(one.error.data, many.error.data);

@@ -3,17 +3,17 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <random>
 #include <utility>
 
 #include <gtest/gtest.h>
 
 #include "Common/Image/Denoise/LiveDenoiser.h"
+#include "tests/unit/DenoiseInputs.h"
 
 namespace {
 
 using namespace rt::image;
+using namespace rt::test;
 
 class LiveDenoiserTest : public testing::Test {
   protected:
@@ -21,32 +21,6 @@ class LiveDenoiserTest : public testing::Test {
     // The pixels whose value can reach one: those of all levels together.
     static constexpr std::uint32_t kReach = rt::shared::kLiveReach * ((1u << rt::shared::kLiveLevels) - 1);
 
-    template <class Radiance>
-    static Image picture(std::uint32_t width, std::uint32_t height, const Radiance& radiance) {
-        Image image(width, height);
-        for (std::uint32_t y = 0; y < height; ++y)
-            for (std::uint32_t x = 0; x < width; ++x)
-                for (std::uint32_t c = 0; c < 3; ++c) image.pixel(x, y)[c] = radiance(x, y, c);
-        return image;
-    }
-    static DenoiseInput equalHalves(const Image& image) {
-        DenoiseInput input;
-        input.halfA = input.halfB = image;
-        return input;
-    }
-    // With exponential noise: as rare and bright as noise of few paths is.
-    template <class Radiance>
-    static DenoiseInput noisyHalves(const Radiance& radiance, std::uint32_t seed) {
-        std::mt19937 random(seed);
-        std::exponential_distribution<float> noise(1.0f);
-        const auto noisy = [&](std::uint32_t x, std::uint32_t y, std::uint32_t c) {
-            return radiance(x, y, c) * noise(random);
-        };
-        DenoiseInput input;
-        input.halfA = picture(kSide, kSide, noisy);
-        input.halfB = picture(kSide, kSide, noisy);
-        return input;
-    }
     static Image filter(const DenoiseInput& input, std::size_t threads = 0) {
         LiveDenoiser denoiser;
         return denoiser.filter(input, threads);
@@ -55,8 +29,6 @@ class LiveDenoiserTest : public testing::Test {
         for (const float value : image.data) ASSERT_TRUE(std::isfinite(value) && value >= 0);
     }
 };
-
-const auto kGrey = [](auto, auto, auto) { return 0.5f; };
 
 } // namespace
 
@@ -87,7 +59,7 @@ TEST_F(LiveDenoiserTest, KeepsTheEnergyOfNoiseAndLowersIt) {
     constexpr int kSeeds = 20;
     double sum = 0, squares = 0;
     for (std::uint32_t seed = 0; seed < kSeeds; ++seed) {
-        const Image result = filter(noisyHalves(kGrey, 300 + seed));
+        const Image result = filter(noisyHalves(kGrey, 300 + seed, kSide));
         for (const float value : result.data) {
             sum += value;
             squares += (value - 0.5) * (value - 0.5);
@@ -107,7 +79,7 @@ TEST_F(LiveDenoiserTest, StopsAtTheEdgesOfAFeature) {
         for (std::uint32_t y = 0; y < kSide; ++y) sum += image.pixel(x, y)[0] / kSide;
         return sum;
     };
-    DenoiseInput input = noisyHalves(half, 5);
+    DenoiseInput input = noisyHalves(half, 5, kSide);
     input.albedo = picture(kSide, kSide, half);
     const Image result = filter(input);
     const double ratio = meanBeside(result, kEdge - 1) / meanBeside(result, kEdge);
@@ -117,27 +89,11 @@ TEST_F(LiveDenoiserTest, StopsAtTheEdgesOfAFeature) {
 
 TEST_F(LiveDenoiserTest, KeepsTheEdgeOfALight) {
     constexpr std::uint32_t kEdge = 71;
-    DenoiseInput input = noisyHalves([](auto x, auto, auto) { return x < kEdge ? 0.2f : 0.0f; }, 3);
-    for (Image* image : {&input.halfA, &input.halfB})
-        for (std::uint32_t y = 0; y < kSide; ++y)
-            for (std::uint32_t x = kEdge; x < kSide; ++x)
-                for (std::uint32_t c = 0; c < 3; ++c) image->pixel(x, y)[c] = 15.0f;
-    const Image result = filter(input);
-    for (std::uint32_t y = 0; y < kSide; ++y) {
-        EXPECT_LT(result.pixel(kEdge - 1, y)[0], 1.5f);
-        EXPECT_NEAR(result.pixel(kEdge, y)[0], 15.0f, 0.15f);
-    }
+    expectTheEdgeOfTheLamp(filter(lampBeforeAWall(kSide, kEdge)), kEdge);
 }
 
 TEST_F(LiveDenoiserTest, TakesWhateverAPictureMayHold) {
-    DenoiseInput input = noisyHalves(kGrey, 4);
-    input.halfA.pixel(5, 6)[0] = std::numeric_limits<float>::infinity();
-    input.halfB.pixel(7, 6)[1] = std::numeric_limits<float>::quiet_NaN();
-    input.halfA.pixel(9, 9)[2] = std::numeric_limits<float>::max();
-    input.albedo = picture(kSide, kSide,
-                           [](auto x, auto, auto) { return x == 3 ? std::numeric_limits<float>::quiet_NaN() : 0.5f; });
-    input.depth = Image(kSide, kSide, 1); // nothing is hit
-    expectSane(filter(input));
+    expectSane(filter(whateverThereMayBe(kSide)));
     expectSane(filter(equalHalves(Image(kSide, kSide))));
 }
 
@@ -152,6 +108,6 @@ TEST_F(LiveDenoiserTest, TakesPicturesOfAnySizeOneAfterTheOther) {
 }
 
 TEST_F(LiveDenoiserTest, HasTheSameBitsForAnyNumberOfThreads) {
-    const DenoiseInput input = noisyHalves([](auto x, auto, auto) { return x < 30 ? 0.1f : 1.0f; }, 5);
+    const DenoiseInput input = noisyHalves([](auto x, auto, auto) { return x < 30 ? 0.1f : 1.0f; }, 5, kSide);
     EXPECT_EQ(filter(input, 1).data, filter(input, 5).data);
 }
