@@ -1,5 +1,5 @@
-# Fails when a patch of ADDITIONS no longer applies to the tree ROOT, or touches more files than its head allows: what has
-# changed is told to whoever changes it, and tests/additions/run.sh finds it at night. GIT and PATCH: programs.
+# Fails when a patch of ADDITIONS no longer applies to the tree ROOT, or touches more files than its head allows: what
+# has changed is told to whoever changes it, and tests/additions/run.sh finds it at night. GIT and PATCH: programs.
 if(EXISTS ${ROOT}/.git AND GIT)
     set(check ${GIT} -C ${ROOT} apply --check)
 elseif(PATCH)

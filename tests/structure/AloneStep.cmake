@@ -8,21 +8,7 @@ cmake_minimum_required(VERSION 3.25)
 include(${CONFIG})
 file(MAKE_DIRECTORY ${SCRATCH})
 
-set(options -std=c++20)
-list(REMOVE_DUPLICATES definitions)
-list(REMOVE_ITEM includes "" /usr/include)
-foreach(definition IN LISTS definitions)
-    list(APPEND options -D${definition})
-endforeach()
-list(REMOVE_DUPLICATES includes)
-foreach(folder IN LISTS includes)
-    cmake_path(IS_PREFIX ROOT ${folder} ours)
-    if(ours)
-        list(APPEND options -I${folder})
-    else()
-        list(APPEND options -isystem ${folder})
-    endif()
-endforeach()
+include(${CMAKE_CURRENT_LIST_DIR}/ClangOptions.cmake)
 
 # All warnings, but that fields of Vulkan's records that are not named are zero, where GCC looks at all others. A file sees
 # of its neighbours in a module only what it includes.

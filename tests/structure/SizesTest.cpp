@@ -1,9 +1,9 @@
 // Files have at most 400 lines and functions at most 80, in production code: Common, both engines, Shaders.
 //
-// Functions are found by braces, in the text without comments, strings and lines of the preprocessor: one that is opened
-// outside of any function, behind a ')' and perhaps initialisers or qualifiers. Lambdas count to what they are in; what a
-// macro spells out counts to nobody; a member initialised in braces counts as one more function. Lines are those from the
-// opening brace to the closing one.
+// Functions are found by braces, in the text without comments, strings and lines of the preprocessor: one that is
+// opened outside of any function, behind a ')' and perhaps initialisers or qualifiers. Lambdas count to what they are
+// in; what a macro spells out counts to nobody; a member initialised in braces counts as one more function. Lines are
+// those from the opening brace to the closing one.
 #include <algorithm>
 #include <cctype>
 #include <cstddef>

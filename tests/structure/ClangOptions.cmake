@@ -1,0 +1,17 @@
+# Sets `options`, with which Clang reads a file of a target: from `definitions` and `includes`, as Alone.cmake writes them
+# into a target's configuration. Warnings are about folders of ROOT alone.
+set(options -std=c++20)
+list(REMOVE_DUPLICATES definitions)
+list(REMOVE_ITEM includes "" /usr/include)
+foreach(definition IN LISTS definitions)
+    list(APPEND options -D${definition})
+endforeach()
+list(REMOVE_DUPLICATES includes)
+foreach(folder IN LISTS includes)
+    cmake_path(IS_PREFIX ROOT ${folder} ours)
+    if(ours)
+        list(APPEND options -I${folder})
+    else()
+        list(APPEND options -isystem ${folder})
+    endif()
+endforeach()
