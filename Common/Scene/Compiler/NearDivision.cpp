@@ -49,7 +49,6 @@ double longestEdge(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
 }
 
 bool exceeds(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double ratio) {
-    if (!representable(a) || !representable(b) || !representable(c)) return false; // to be dropped
     const glm::dvec3 ab = b - a, bc = c - b, ca = a - c;
     const double squared = std::max({glm::dot(ab, ab), glm::dot(bc, bc), glm::dot(ca, ca)});
     if (!(glm::dot(a, a) < 4 * squared)) return false; // as nearly all triangles of a large mesh are

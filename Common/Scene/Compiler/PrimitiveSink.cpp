@@ -92,13 +92,16 @@ std::uint32_t PrimitiveSink::appendLight(shared::Light light, std::uint32_t mate
 void PrimitiveSink::expect(const PrimitiveCounts& counts) {
     reserveLarge(out_.spheres, counts.spheres);
     reserveLarge(out_.quads, counts.quads);
-    reserveLarge(out_.triangles, counts.triangles + kPieces);
-    reserveLarge(out_.triangleMesh, counts.triangles + kPieces);
-    reserveLarge(out_.positions, counts.positions + kPieces);
-    reserveLarge(out_.normals, counts.normals + kPieces);
-    reserveLarge(out_.uvs, counts.uvs + kPieces);
-    reserveLarge(out_.colors, counts.colors + kPieces);
-    reserveLarge(out_.tangents, counts.tangents + kPieces);
+    const auto makeRoom = [](auto& array, std::size_t count) {
+        if (count > 0) reserveLarge(array, count + kPieces);
+    };
+    makeRoom(out_.triangles, counts.triangles);
+    makeRoom(out_.triangleMesh, counts.triangles);
+    makeRoom(out_.positions, counts.positions);
+    makeRoom(out_.normals, counts.normals);
+    makeRoom(out_.uvs, counts.uvs);
+    makeRoom(out_.colors, counts.colors);
+    makeRoom(out_.tangents, counts.tangents);
 }
 
 // ---- spheres -------------------------------------------------------------------------------------------------------

@@ -1,5 +1,5 @@
-// How PrimitiveSink appends surfaces of meshes: triangles without area are dropped, the others sorted along a curve, and
-// vertices stand in the order of their first use.
+// How PrimitiveSink appends surfaces of meshes: triangles without area are dropped, the others sorted along a curve.
+// Vertices stand in the order of their first use.
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
@@ -44,14 +44,14 @@ std::vector<shared::vec3> mapped(const std::vector<glm::dvec3>& positions, const
 
 struct KeptTriangles {
     std::vector<std::uint32_t> numbers; // of those that have an area
-    bool anyIsHuge;
+    bool mustBeDivided;                 // as one is huge, where any may be divided
 };
 
 // `whose`: begins the message about a triangle of a vertex that there is not.
 KeptTriangles keptTriangles(const std::vector<shared::vec3>& positions, const std::vector<glm::uvec3>& triangles,
-                            const std::string& whose) {
+                            bool mayBeDivided, const std::string& whose) {
     std::vector<std::uint8_t> isFlat(triangles.size());
-    std::atomic<bool> anyIsHuge = false;
+    std::atomic<bool> mustBeDivided = false;
     parallelChunks(0, isFlat.size(), kChunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             interruptionPoint();
@@ -60,10 +60,10 @@ KeptTriangles keptTriangles(const std::vector<shared::vec3>& positions, const st
                 throw InputError(whose + ": a triangle refers to vertex " + std::to_string(std::max({t.x, t.y, t.z})) +
                                  " of " + std::to_string(positions.size()));
             isFlat[i] = doubleArea(positions[t.x], positions[t.y], positions[t.z]) == glm::dvec3(0);
-            if (isHuge(positions[t.x], positions[t.y], positions[t.z])) anyIsHuge = true;
+            if (mayBeDivided && isHuge(positions[t.x], positions[t.y], positions[t.z])) mustBeDivided = true;
         }
     });
-    KeptTriangles kept{{}, anyIsHuge};
+    KeptTriangles kept{{}, mustBeDivided};
     reserveLarge(kept.numbers, triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i)
         if (!isFlat[i]) kept.numbers.push_back(i);
@@ -90,8 +90,8 @@ void PrimitiveSink::surface(const MeshData& data, const MaterialDesc& own, bool 
         if (data.positions.size() > kManyVertices) releaseFreedMemory();
     };
     std::vector<shared::vec3> positions = mapped(data.positions, map);
-    KeptTriangles kept = keptTriangles(positions, data.triangles, out_.id + ": " + at.place);
-    if (mayBeDivided && kept.anyIsHuge)
+    KeptTriangles kept = keptTriangles(positions, data.triangles, mayBeDivided, out_.id + ": " + at.place);
+    if (kept.mustBeDivided)
         return surface(divideHugeTriangles(data, map, materials_.mayShowImage(material)), own, light, at, false);
     dropped_.triangles += data.triangles.size() - kept.numbers.size();
     if (kept.numbers.empty()) return;
