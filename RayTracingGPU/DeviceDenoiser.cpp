@@ -120,7 +120,6 @@ DeviceDenoiser::DeviceDenoiser(vulkan::VulkanContext& context, DenoisePipelines&
     means_ = make(pixels_ * kFourFloats);
     kept_ = make(pixels_ * sizeof(float));
     sums_ = make(std::size_t{groups().width} * groups().height * shared::kDenoiseSums * sizeof(float));
-    setSurfaces({}, {}, {});
 }
 
 void DeviceDenoiser::setSurfaces(const image::Image& albedo, const image::Image& normal, const image::Image& depth) {

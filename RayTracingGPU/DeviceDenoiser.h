@@ -75,7 +75,7 @@ class DeviceDenoiser {
     bool run(std::uint64_t samplesOfHalf, std::uint32_t dependentSide, const std::atomic<bool>* cancel = nullptr);
     // What it made; the picture alone, or all details.
     image::Denoised read(bool details) const;
-    // The same by live quality.
+    // Filters the halves by live quality, and what that made.
     void runLive();
     image::Image readLive() const;
 

@@ -47,30 +47,32 @@ class FilmDenoiser final : public app::PictureDenoiser {
     FilmDenoiser(app::Engine& engine, FilmOnDevice& film, std::uint32_t width, std::uint32_t height)
         : engine_(engine), film_(film), width_(width), height_(height) {}
 
-    bool isQuick() const override { return !byHost_ || byHost_->isQuick(); }
+    bool isQuick() const override { return !hasFailed_ || byHost_->isQuick(); }
 
     std::optional<app::DenoisedPicture> denoise(const app::DenoiseRequest& request,
                                                 const std::atomic<bool>& cancel) override {
         try {
-            if (!byHost_) return onDevice(request, cancel);
+            if (!hasFailed_) return onDevice(request, cancel);
         } catch (const vulkan::DeviceLostError&) {
             throw;
         } catch (const RenderError&) {
-            byHost_ = app::makeHostDenoiser(engine_);
+            hasFailed_ = true;
         }
-        return byHost_->denoise(request, cancel);
+        return host().denoise(request, cancel);
     }
 
   private:
+    app::PictureDenoiser& host() {
+        if (!byHost_) byHost_ = app::makeHostDenoiser(engine_);
+        return *byHost_;
+    }
+
     std::optional<app::DenoisedPicture> onDevice(const app::DenoiseRequest& request, const std::atomic<bool>& cancel) {
         const app::Stopwatch watch;
         bool isNew = false;
         DeviceDenoiser& device = film_.denoiser().of(width_, height_, isNew);
         const std::uint64_t samplesOfHalf = film_.resolveHalves(device.halves());
-        if (samplesOfHalf == 0) {
-            const auto elsewhere = app::makeHostDenoiser(engine_); // a part of the film may be on the host
-            return elsewhere->denoise(request, cancel);
-        }
+        if (samplesOfHalf == 0) return host().denoise(request, cancel); // a part of the film may be on the host
         if (isNew || surfaceSamples_ < request.featureSamples) {
             surfaceSamples_ = 0;
             if (!film_.renderSurfaces(request.featureSamples, device.surfaces(), cancel)) return std::nullopt;
@@ -95,7 +97,8 @@ class FilmDenoiser final : public app::PictureDenoiser {
     FilmOnDevice& film_;
     std::uint32_t width_, height_;
     std::uint32_t surfaceSamples_ = 0;             // of the surfaces that are on the device
-    std::unique_ptr<app::PictureDenoiser> byHost_; // once the device has failed
+    bool hasFailed_ = false;                       // the device, which is not asked again
+    std::unique_ptr<app::PictureDenoiser> byHost_; // with the features that it has rendered, once it was needed
 };
 
 } // namespace

@@ -47,21 +47,24 @@ PictureFilter::Pointer PictureFilter::filterDraft(const FilmRun& draft) {
     return made;
 }
 
+bool PictureFilter::canFilter(const FilmRun& film) const {
+    const std::uint64_t samples = film.status().samplesDone;
+    return denoiser_ && film.settings().replicates >= kHalves && samples > 0 && refusedSamples_ != samples;
+}
+
 PictureFilter::Pointer PictureFilter::update(const FilmRun& film, Haste haste, bool wantsDetails) {
     hasMadeFinal_ = false;
-    const std::uint64_t samples = film.status().samplesDone;
-    if (!denoiser_ || film.settings().replicates < kHalves || samples == 0 || refusedSamples_ == samples) return last_;
+    if (!canFilter(film)) return last_;
     if (isFinalDue(film, haste, wantsDetails))
         make(film, DenoiseQuality::Final, wantsDetails, cancel_);
-    else if (isLiveQuick(film) && !isFinal() && samples != samples_)
+    else if (isLiveQuick(film) && !isFinal() && film.status().samplesDone != samples_)
         make(film, DenoiseQuality::Live, false, cancel_);
     return last_;
 }
 
 bool PictureFilter::canImprove(const FilmRun& film, bool wantsDetails) const {
-    const std::uint64_t samples = film.status().samplesDone;
-    if (!denoiser_ || film.settings().replicates < kHalves || samples == 0 || refusedSamples_ == samples) return false;
-    return !isFinal() || samples != samples_ || (wantsDetails && !hasDetails_);
+    if (!canFilter(film)) return false;
+    return !isFinal() || film.status().samplesDone != samples_ || (wantsDetails && !hasDetails_);
 }
 
 bool PictureFilter::isLiveQuick(const FilmRun& film) const {
