@@ -83,8 +83,8 @@ install_packages() {
 
     local as_root=() install=(apt-get install --no-install-recommends)
     if ((EUID != 0)); then
-        command -v sudo >/dev/null || fail "packages are missing, and neither root nor sudo is at hand. Ask who administers \
-this machine for
+        command -v sudo >/dev/null ||
+            fail "packages are missing, and neither root nor sudo is at hand. Ask who administers this machine for
     ${install[*]} ${missing[*]}"
         as_root=(sudo)
     fi
@@ -127,8 +127,8 @@ build() {
         asan | tsan | package) folder=build-$preset ;;
     esac
     if [[ ! -e $folder/bin ]]; then
-        echo "Compiling takes about $((20 / $(nproc) + 1)) min on these $(nproc) processors, and half a GB in $folder/;" \
-            "$log tells the details"
+        echo "Compiling takes about $((20 / $(nproc) + 1)) min on these $(nproc) processors," \
+            "and half a GB in $folder/; $log tells the details"
     fi
     printf 'Compiling ... '
     if ! build_with_progress "$@"; then
@@ -144,7 +144,8 @@ is_minimal() {
     grep -qs '^RT_BUILD_GUI:BOOL=OFF' build/CMakeCache.txt
 }
 
-# Packages with the time of the newest entry of their changelog, as Debian's tools do: the same sources make the same bytes.
+# Packages with the time of the newest entry of their changelog, as Debian's tools do: the same sources make the same
+# bytes.
 make_packages() {
     local date
     date=$(sed -n 's/^ -- .*>  //p' cmake/packages/changelog | head -n 1)

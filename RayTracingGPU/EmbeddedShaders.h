@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <span>
 
-// Each with the array that cmake/Shaders.cmake makes of it. Kernels by what they are for and how they trace: through the
-// pipeline, compute shaders through our own tree, or by ray queries. Heavy ones have all code of shared headers, see
-// Shim.h.
+// Each with the array that cmake/Shaders.cmake makes of it. Kernels by what they are for and how they trace: through
+// the pipeline, compute shaders through our own tree, or by ray queries. Heavy ones have all code of shared headers,
+// see Shim.h.
 #define RT_GPU_KERNELS(X, purpose, array) \
     X(purpose##Pipeline, array##_rgen)    \
     X(purpose##Compute, array##_comp)     \

@@ -127,9 +127,9 @@ void add(inout Equations sums, float weight, float features[kDenoiseFeatures], v
     }
 }
 
-// Those products follow from the others by Abel's summation. Let a(y) be the sum over the row y, from -R to R, and s(y)
-// that over all rows up to y. Then the sum of y a(y) is R s(R) less the sum of s(y) over the rows but the last, and
-// that of y^2 a(y) is R^2 s(R) less the sum of (2 y + 1) s(y). This is what the end of a row takes off.
+// Products with the way down follow from the others by Abel's summation. Let a(y) be the sum over the row y, from -R to
+// R, and s(y) that over all rows up to y. Then the sum of y a(y) is R s(R) less the sum of s(y) over the rows but the
+// last, and that of y^2 a(y) is R^2 s(R) less the sum of (2 y + 1) s(y). This is what the end of a row takes off.
 void endRow(inout Equations sums, int y) {
     [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++) {
         if (i >= kFitFeatures) continue;

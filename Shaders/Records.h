@@ -276,7 +276,7 @@ RT_FN uvec2 pixelInTile(uint tile, uint tilePixel) {
     return uvec2((tile & 0xffffu) * kTile + tilePixel % kTile, (tile >> 16u) * kTile + tilePixel / kTile);
 }
 
-// ---- features of surfaces and costs ----------------------------------------------------------------------------------
+// ---- features of surfaces and costs ---------------------------------------------------------------------------------
 
 RT_MUTABLE_ARRAY(MutableFloatArray, float)
 

@@ -1,5 +1,5 @@
-# Shaders are compiled to SPIR-V and become arrays of C++ headers: nothing is looked up at run time. That they are valid is
-# tested (tests/structure/ValidShaders.cmake), which takes longer than to compile them.
+# Shaders are compiled to SPIR-V and become arrays of C++ headers: nothing is looked up at run time. That they are valid
+# is tested (tests/structure/ValidShaders.cmake), which takes longer than to compile them.
 find_program(RT_GLSLANG NAMES glslangValidator glslang)
 find_program(RT_SPIRV_VAL spirv-val)
 mark_as_advanced(RT_GLSLANG RT_SPIRV_VAL)
@@ -25,10 +25,10 @@ function(rt_require_vulkan)
     endif()
 endfunction()
 
-# For each of the files in Shaders/, or in the folder after FROM, X.ext becomes the header "X.ext.h" in an include folder
-# of `target`, with the array X_ext of words; "TARGET.shaders.h" includes them all. X.Some.NewVariant.ext, where there is
-# no such file, is X.ext with RT_SOME and RT_NEW_VARIANT defined. X.rgen is X.comp as a ray generation shader, with
-# RT_PIPELINE defined. A change of any file that a shader includes builds it anew.
+# For each of the files in Shaders/, or in the folder after FROM, X.ext becomes the header "X.ext.h" in an include
+# folder of `target`, with the array X_ext of words; "TARGET.shaders.h" includes them all. X.Some.NewVariant.ext, where
+# there is no such file, is X.ext with RT_SOME and RT_NEW_VARIANT defined. X.rgen is X.comp as a ray generation shader,
+# with RT_PIPELINE defined. A change of any file that a shader includes builds it anew.
 function(rt_embed_shaders target)
     cmake_parse_arguments(arg "" "FROM" "" ${ARGN})
     set(sources ${PROJECT_SOURCE_DIR}/Shaders)

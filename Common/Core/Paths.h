@@ -21,7 +21,8 @@ std::filesystem::path userCacheFolder();
 std::filesystem::path userStateFolder();
 
 // Folders searched for assets, in order: $RT_ASSETS; Assets beside the program or in a folder around it, as in the
-// source tree that it was built in; share/ray-tracing-twins below the prefix that it was installed to. Only folders that exist.
+// source tree that it was built in; share/ray-tracing-twins below the prefix that it was installed to. Only folders
+// that exist.
 std::vector<std::filesystem::path> assetFolders();
 
 // An asset by its name relative to an asset folder, e.g. "textures/mars.jpg"; nothing when no folder has such a file.

@@ -31,7 +31,7 @@ void drawIcon(ImDrawList& list, Icon icon, ImVec2 corner, float side, ImU32 colo
 
 // A square button as high as a row, whose name is for ImGui; whether it was pressed. `isOn`: what it switches is on.
 bool iconButton(const char* id, Icon icon, const char* tip, Usable usable = true, bool isOn = false);
-// The same with a text beside the icon where `width` has room for it.
+// An iconButton with a text beside the icon where `width` has room for it.
 bool toggleButton(const char* id, Icon icon, const char* text, const char* tip, Usable usable, bool isOn, float width);
 // With a text beside the icon, in the accent's colour: for the one thing to do first.
 bool primaryButton(const char* id, Icon icon, const char* text, const char* tip, bool isEnabled, float width,

@@ -85,8 +85,8 @@ class BmpDecoder {
         return std::to_integer<std::uint32_t>(bytes_[at_++]);
     }
 
-    // Some programs fill rows to a multiple of four bytes, as they are where they are not compressed. Pixels beyond that,
-    // or beyond the picture, are an error.
+    // Some programs fill rows to a multiple of four bytes, as they are where they are not compressed. Pixels beyond
+    // that, or beyond the picture, are an error.
     void put(std::uint32_t index) {
         const std::uint32_t perWord = halves_ ? 8 : 4;
         const std::uint32_t filled = (width_ + perWord - 1) / perWord * perWord;

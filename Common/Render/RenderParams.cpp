@@ -82,9 +82,8 @@ bool mayReusePaths(const scene::CompiledScene& scene, const RenderSettings& sett
            shared::has(scene.features, shared::kEvenSurfaceFeatures) && !shared::has(scene.features, kPrevents);
 }
 
-// Whether that gains more than it costs, by error times time (docs/measurements/light-sampling.md): where indirect light
-// makes the
-// noise, and not a sky, many lamps, the edges of a mesh's light or blurred mirrors.
+// Whether that gains more than it costs, by error times time (docs/measurements/light-sampling.md): where indirect
+// light makes the noise, and not a sky, many lamps, the edges of a mesh's light or blurred mirrors.
 bool gainsByReuse(const scene::CompiledScene& scene) {
     constexpr shared::Features kOtherNoise =
         shared::kFeatureSky | shared::kFeatureTriangleLights | shared::kFeatureFuzz;

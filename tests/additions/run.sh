@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Applies the patches of this folder one after the other, each to a checkout of the last commit: evidence that a material, a
-# technique, a texture, a setting and a panel can be added in as few files as docs/extending.md says, by what the tests
-# name. A patch begins with lines "# what", "# files at most: N", "# build: TARGET...", "# tests: TEST...".
+# Applies the patches of this folder one after the other, each to a checkout of the last commit: evidence that a
+# material, a technique, a texture, a setting and a panel can be added in as few files as docs/extending.md says, by
+# what the tests name. A patch begins with lines "# what", "# files at most: N", "# build: TARGET...", "# tests:
+# TEST...".
 #   tests/additions/run.sh          all additions; takes as long as a build of the tests, and minutes more for each
 #   tests/additions/run.sh REGEX    those whose names match
 #   tests/additions/run.sh --list   names, limits and tests, and whether each applies to the last commit; builds nothing
-# ADDITIONS_SCRATCH=FOLDER keeps checkout and build there for the next time. Needs Git, CMake and Ninja, and what the tests
-# named need (./build.sh test provides it).
-# Exit code 0: all passed; 1: some did not.
+# ADDITIONS_SCRATCH=FOLDER keeps checkout and build there for the next time. Needs Git, CMake and Ninja, and what the
+# tests named need (./build.sh test provides it). Exit code 0: all passed; 1: some did not.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 

@@ -195,8 +195,9 @@ SceneDesc ballScene(MaterialKind kind, bool isInstance = false) {
     return desc;
 }
 
-// Where samples differ, without edge rays, is where a ball shows a lamp in some directions, by some chance. Most of that
-// noise is found, and few pixels without it: what edge rays leave is less than other rays of that number would leave.
+// Where samples differ, without edge rays, is where a ball shows a lamp in some directions, by some chance. Most of
+// that noise is found, and few pixels without it: what edge rays leave is less than other rays of that number would
+// leave.
 TEST(EdgeRays, SpheresShowLights) {
     for (const SceneDesc& desc : {ballScene(MaterialKind::Metal), ballScene(MaterialKind::Dielectric),
                                   ballScene(MaterialKind::Dielectric, true)}) {

@@ -171,10 +171,10 @@ TEST(CpuEngine, AWatchedFilmHasItsFirstSamplesSoonAndTheSameBits) {
     engine->setScene(scene, nullptr);
     engine->reset(scene->camera, settings);
     const app::Budget oneTile{0s, nullptr, true};
-    std::uint64_t mostBefore = 0; // samples of any pixel, while some pixel has none of a replicate
+    std::uint64_t maxBefore = 0; // samples of any pixel, while some pixel has none of a replicate
     while (!engine->renderSome(oneTile).finished)
-        if (engine->film().minReplicateSamples() == 0) mostBefore = engine->film().maxSamples();
-    EXPECT_EQ(mostBefore, 2u);
+        if (engine->film().minReplicateSamples() == 0) maxBefore = engine->film().maxSamples();
+    EXPECT_EQ(maxBefore, 2u);
     EXPECT_TRUE(sameBits(expected, engine->film().resolve().data));
 }
 

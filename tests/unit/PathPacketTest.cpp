@@ -77,7 +77,8 @@ class OneByOne {
     KernelCounters counters;
 
   private:
-    // What connections bring, summed apart as packets do: behind the second vertex of a path that is shared, and before.
+    // What connections bring, summed apart as packets do: behind the second vertex of a path that is shared, and
+    // before.
     struct Connected {
         vec3 before = vec3(0.0f);
         vec3 behind = vec3(0.0f);
@@ -262,8 +263,8 @@ void compareEstimators(const TracedScene& scene) {
     }
 }
 
-// Without and with shared paths and edge rays. Short tables and a tree of lights, media, targets, metal, glass, thin lens, sky; principled surfaces and layers;
-// instances; a sky image.
+// Without and with shared paths and edge rays. Short tables and a tree of lights, media, targets, metal, glass, thin
+// lens, sky; principled surfaces and layers; instances; a sky image.
 TEST(PathPacket, PathsAreThoseOfStepPath) {
     seen = {};
     for (const char* id : {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass",

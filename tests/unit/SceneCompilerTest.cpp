@@ -347,7 +347,7 @@ TEST(SceneCompiler, CoordinatesAreRelativeToTheCamera) {
     EXPECT_EQ(compiled->spheres[0].center, shared::vec3(530 - 278, 530 - 278, 277 + 800));
 }
 
-// Those of a file whose mode is BLEND say nothing else.
+// Materials of glTF whose mode is BLEND say nothing else.
 TEST(SceneCompiler, OpacityOfVerticesIsOpacity) {
     for (const double opacity : {1.0, 0.5}) {
         SceneDesc scene = withMaterials();
