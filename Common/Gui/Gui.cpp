@@ -172,7 +172,8 @@ void Gui::scaleInterface(float change) {
 std::string Gui::pictureTitle() const {
     if (state.picture.isPreview) return "preview";
     std::string title = (isGpu ? "GPU, " : "CPU, ") + std::to_string(state.picture.spp) + " spp";
-    if (state.picture.isDenoised && !state.picture.isDisplay) title += ", denoised";
+    const bool isOfPicture = !state.picture.isDisplay || viewRequest.mode == app::ViewMode::Error;
+    if (state.picture.isDenoised && isOfPicture) title += ", denoised";
     if (viewRequest.mode == app::ViewMode::HalfA) title += ", half A";
     if (viewRequest.mode == app::ViewMode::HalfB) title += ", half B";
     return title;

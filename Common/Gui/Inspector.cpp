@@ -43,24 +43,28 @@ std::vector<InspectedRow> inspectPixel(const app::Picture& picture, const image:
         return image != nullptr && x < image->width && y < image->height ? image->pixel(x, y) : nullptr;
     };
     const float* rgb = find(picture.radiance.get());
-    if (rgb == nullptr) return {};
+    const float* seen = find(picture.subject.get());
+    if (rgb == nullptr || seen == nullptr) return {};
     constexpr const char* kPattern = "%.4g  %.4g  %.4g";
     std::vector<InspectedRow> rows = {{"pixel", text("%u, %u", x, y), "", ""}};
-    InspectedRow radiance{"radiance", text(kPattern, rgb[0], rgb[1], rgb[2]), "", ""};
+    // What is seen is compared with what was pinned, though the radiance may be another picture.
+    InspectedRow shown{"radiance", text(kPattern, seen[0], seen[1], seen[2]), "", ""};
     if (const float* other = find(held)) {
         rows.front() = {"pixel", "B: picture", "A: pinned", "B - A"};
         rows.push_back({"", text("%u, %u", x, y), "", ""});
-        radiance.held = text(kPattern, other[0], other[1], other[2]);
-        radiance.difference = text("%+.3g  %+.3g  %+.3g", rgb[0] - other[0], rgb[1] - other[1], rgb[2] - other[2]);
+        shown.held = text(kPattern, other[0], other[1], other[2]);
+        shown.difference = text("%+.3g  %+.3g  %+.3g", seen[0] - other[0], seen[1] - other[1], seen[2] - other[2]);
     }
-    if (const float* shown = find(picture.values.get())) {
-        const bool isOne = picture.values->channels == 1;
-        rows.push_back({picture.legend      ? nameOf(picture.legend->quantity)
-                        : picture.isDisplay ? "view"
-                                            : "shown",
-                        isOne ? text("%.4g", *shown) : text(kPattern, shown[0], shown[1], shown[2]), "", ""});
+    if (const float* value = find(picture.values.get()))
+        rows.push_back(
+            {picture.legend ? nameOf(picture.legend->quantity) : "view",
+             picture.values->channels == 1 ? text("%.4g", *value) : text(kPattern, value[0], value[1], value[2]), "",
+             ""});
+    if (picture.subject != picture.radiance) {
+        shown.name = picture.isDenoised ? "denoised" : "half";
+        rows.push_back(std::exchange(shown, {"radiance", text(kPattern, rgb[0], rgb[1], rgb[2]), "", ""}));
     }
-    rows.push_back(std::move(radiance));
+    rows.push_back(std::move(shown));
     if (const float* variance = find(picture.variance.get()))
         rows.push_back({"variance", text("%.3g  %.3g  %.3g", variance[0], variance[1], variance[2]), "", ""});
     if (const float* samples = find(picture.samples.get())) rows.push_back({"samples", text("%.0f", *samples), "", ""});

@@ -17,7 +17,8 @@ struct InspectedRow {
 // Rows with no columns but name and picture, for narrow windows: what stood side by side stands below each other.
 std::vector<InspectedRow> stacked(const std::vector<InspectedRow>& rows);
 
-// What the view shows there, where it is not the radiance, stands before that. `held`: the radiance of the pinned picture; null: there is none. Nothing where the pixel is outside of the picture.
+// What the view shows there, where it is not the radiance, stands before that. `held`: what is shown of the pinned
+// picture; null: there is none. Nothing where the pixel is outside of the picture.
 std::vector<InspectedRow> inspectPixel(const app::Picture& picture, const image::Image* held,
                                        const std::array<std::uint32_t, 2>& pixel);
 

@@ -22,7 +22,7 @@ void PinnedView::pin(const app::Picture& picture, app::ViewMode mode, std::strin
                      std::optional<app::RunRecord> work) {
     *this = {};
     pinned_ = shown_ = picture.image;
-    radiance_ = picture.isDisplay ? picture.radiance : picture.image; // raw, denoised or of a half
+    radiance_ = picture.subject;
     isPinnedDisplay_ = isDisplay_ = picture.isDisplay;
     pinnedMode_ = picture.isDisplay ? mode : app::ViewMode::Picture;
     title_ = std::move(title);

@@ -20,7 +20,7 @@ std::shared_ptr<const image::Image> uniform(float r, float g, float b) {
 
 TEST(Inspector, TellsWhatThePictureHolds) {
     app::Picture picture;
-    picture.radiance = uniform(0.5f, 1, 2);
+    picture.radiance = picture.subject = uniform(0.5f, 1, 2);
     picture.variance = uniform(0.25f, 0, 0);
     picture.samples = std::make_shared<const image::Image>([] {
         image::Image samples(4, 2, 1);
@@ -40,7 +40,7 @@ TEST(Inspector, TellsWhatThePictureHolds) {
 
 TEST(Inspector, TellsWhatTheViewShows) {
     app::Picture picture;
-    picture.radiance = uniform(0.5f, 1, 2);
+    picture.radiance = picture.subject = uniform(0.5f, 1, 2);
     picture.values = uniform(0, 0.6f, 0.8f);
     std::vector<InspectedRow> rows = inspectPixel(picture, nullptr, {0, 0});
     ASSERT_EQ(rows.size(), 3u);
@@ -59,7 +59,7 @@ TEST(Inspector, TellsWhatTheViewShows) {
 
 TEST(Inspector, TellsBothValuesAndTheirDifferenceBesideAPinnedPicture) {
     app::Picture picture;
-    picture.radiance = uniform(0.5f, 1, 2);
+    picture.radiance = picture.subject = uniform(0.5f, 1, 2);
     const std::vector<InspectedRow> rows = inspectPixel(picture, uniform(0.25f, 1, 3).get(), {0, 0});
     ASSERT_EQ(rows.size(), 3u);
     EXPECT_EQ(rows[0].picture, "B: picture");
@@ -71,9 +71,24 @@ TEST(Inspector, TellsBothValuesAndTheirDifferenceBesideAPinnedPicture) {
     EXPECT_EQ(inspectPixel(picture, &small, {3, 1}).size(), 2u); // nothing to compare with there
 }
 
+// A denoised picture beside a pinned one: the radiance, which is not seen, is compared with nothing.
+TEST(Inspector, ComparesWhatIsSeenWithWhatIsPinned) {
+    app::Picture picture;
+    picture.radiance = uniform(8, 8, 8);
+    picture.subject = uniform(0.5f, 1, 2);
+    picture.isDenoised = true;
+    const std::vector<InspectedRow> rows = inspectPixel(picture, uniform(0.25f, 1, 3).get(), {0, 0});
+    ASSERT_EQ(rows.size(), 4u);
+    EXPECT_EQ(rows[2].name, "denoised");
+    EXPECT_EQ(rows[2].difference, "+0.25  +0  -1");
+    EXPECT_EQ(rows[3].name, "radiance");
+    EXPECT_EQ(rows[3].picture, "8  8  8");
+    EXPECT_EQ(rows[3].held + rows[3].difference, "");
+}
+
 TEST(Inspector, StandsBelowEachOtherWhereThereIsNoRoomBeside) {
     app::Picture picture;
-    picture.radiance = uniform(0.5f, 1, 2);
+    picture.radiance = picture.subject = uniform(0.5f, 1, 2);
     picture.variance = uniform(0.25f, 0, 0);
     const auto texts = [](const std::vector<InspectedRow>& rows) {
         std::vector<std::string> lines;

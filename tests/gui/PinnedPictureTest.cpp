@@ -93,14 +93,15 @@ TEST_P(PinnedPictureTest, BothSidesShowTheError) {
     startWith(skyOf("red", "[0.5, 0, 0]"), {"--reference", (folder_ / "reference.pfm").string()});
     ASSERT_FALSE(HasFatalFailure());
     ASSERT_TRUE(eventually([&] { return isRed(left()) && isRed(right()); })) << log();
+    ASSERT_TRUE(appears("denoised relMSE")) << log(); // the picture before it is raw, and would be pinned so
     ASSERT_TRUE(pin());
     const std::uint32_t plain = right();
     EXPECT_TRUE(clickText("Error", [&] { return right() != plain; }));
     EXPECT_TRUE(eventually([&] { return left() == right(); }, kSeen)) << std::hex << left() << " " << right();
     EXPECT_NE(left(), plain);
     const std::string program = std::string(GetParam()) == "ray-tracing-cpu" ? "CPU" : "GPU";
-    EXPECT_TRUE(appears("A: " + program + ", 4 spp"));
-    EXPECT_TRUE(appears("B: " + program + ", 4 spp, Error"));
+    EXPECT_TRUE(appears("A: " + program + ", 4 spp, denoised, pinned, Error, relMSE")) << log();
+    EXPECT_TRUE(appears("B: " + program + ", 4 spp, denoised, Error, relMSE")) << log();
     expectCleanEnd();
 }
 

@@ -18,7 +18,7 @@ std::shared_ptr<const image::Image> grey(float value) {
 
 app::Picture pictureOf(float value) {
     app::Picture picture;
-    picture.image = picture.radiance = grey(value);
+    picture.image = picture.radiance = picture.subject = grey(value);
     return picture;
 }
 
@@ -48,6 +48,20 @@ TEST(PinnedView, ShowsTheErrorAsThePictureDoes) {
     EXPECT_NEAR(*pinned.relmse(), 0.1 * 0.1 / (0.4 * 0.4 + 0.01), 1e-6);
     pinned.follow(measuredBy(grey(0.4f)), viewOf(app::ViewMode::Picture));
     EXPECT_EQ(pinned.shown(), pinned.radiance());
+}
+
+// Pinned while its error is shown, it is the denoised picture whose error that is.
+TEST(PinnedView, IsThePictureThatTheErrorWasOf) {
+    app::Picture picture = pictureOf(0.9f);
+    picture.subject = grey(0.5f);
+    picture.image = grey(1);
+    picture.isDisplay = picture.isDenoised = true;
+    PinnedView pinned;
+    pinned.pin(picture, app::ViewMode::Error, "CPU, 4 spp, denoised", std::nullopt);
+    pinned.follow(measuredBy(grey(0.4f)), viewOf(app::ViewMode::Picture));
+    EXPECT_EQ(pinned.shown(), picture.subject);
+    ASSERT_TRUE(pinned.relmse());
+    EXPECT_NEAR(*pinned.relmse(), 0.1 * 0.1 / (0.4 * 0.4 + 0.01), 1e-6);
 }
 
 // A reference of another size measures nothing, and of a view that was not kept there is the picture.

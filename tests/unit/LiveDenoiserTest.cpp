@@ -30,8 +30,6 @@ class LiveDenoiserTest : public testing::Test {
     }
 };
 
-} // namespace
-
 TEST_F(LiveDenoiserTest, KeepsAConstantPicture) {
     const Image constant =
         picture(kSide, kSide, [](auto, auto, auto c) { return 0.3f + 0.2f * static_cast<float>(c); });
@@ -111,3 +109,5 @@ TEST_F(LiveDenoiserTest, HasTheSameBitsForAnyNumberOfThreads) {
     const DenoiseInput input = noisyHalves([](auto x, auto, auto) { return x < 30 ? 0.1f : 1.0f; }, 5, kSide);
     EXPECT_EQ(filter(input, 1).data, filter(input, 5).data);
 }
+
+} // namespace

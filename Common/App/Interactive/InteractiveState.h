@@ -63,15 +63,16 @@ enum class Activity { Preparing, Rendering, Paused, Stopped, Finished, Failed };
 
 // What is shown of the whole image.
 struct Picture {
-    std::shared_ptr<const image::Image> image;    // linear
-    std::shared_ptr<const image::Image> radiance; // the same, but for views of something else
-    bool isDisplay = false;                       // no exposure and no tone curve belong to it
-    bool isPreview = false;                       // by rasterisation
-    bool isDenoised = false;                      // the image is not the radiance, but that with less noise
-    bool isLive = false;                          // of which a better one is to come
-    std::shared_ptr<const image::Image> values{}; // that the image shows, where it is no radiance
-    std::optional<Legend> legend{};               // of the image's colours, where they stand for something else
-    std::uint64_t serial = 0;                     // grows with each new picture
+    std::shared_ptr<const image::Image> image;     // linear
+    std::shared_ptr<const image::Image> radiance;  // the same, but for views of something else
+    bool isDisplay = false;                        // no exposure and no tone curve belong to it
+    bool isPreview = false;                        // by rasterisation
+    bool isDenoised = false;                       // the image is not the radiance, but that with less noise
+    bool isLive = false;                           // of which a better one is to come
+    std::shared_ptr<const image::Image> subject{}; // that views of errors are of: the radiance, denoised, or of a half
+    std::shared_ptr<const image::Image> values{};  // that a view of something else shows
+    std::optional<Legend> legend{};                // of the image's colours, where they stand for something else
+    std::uint64_t serial = 0;                      // grows with each new picture
     std::uint64_t spp = 0; // of every pixel, adaptive ones in the mean; 0: partly a draft of lower resolution
     // With ViewRequest::inspect, where known: variance of each pixel's mean, and its samples in one channel.
     std::shared_ptr<const image::Image> variance, samples;

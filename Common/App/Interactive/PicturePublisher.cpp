@@ -99,7 +99,8 @@ void PicturePublisher::showDraft(const FilmRun& draft, const RenderSettings& fil
     const PictureFilter::Pointer denoised = isFiltered() ? filter_.filterDraft(draft) : nullptr;
     picture.isDenoised = picture.isLive = isDraftDenoised_ = denoised != nullptr;
     draft_ = denoised ? denoised->images.picture : draft.engine().snapshot().radiance;
-    picture.image = picture.radiance = std::make_shared<image::Image>(enlarge(draft_, film.width, film.height));
+    picture.image = picture.radiance = picture.subject =
+        std::make_shared<image::Image>(enlarge(draft_, film.width, film.height));
     if (showsFeatures(view_.mode)) {
         AovImages features;
         ViewImage view = featureView(draft.engine(), 1, features);
@@ -127,6 +128,7 @@ void PicturePublisher::show(const FilmRun& film, FilmReference& reference, const
     if (picture.spp > 0) reference.follow(film, *radiance);
     picture.image = picture.radiance = std::move(radiance);
     if (picture.spp > 0) denoise(film, haste, picture);
+    picture.subject = picture.image;
     if (const ViewPointer view = viewOf(film, picture, reference, speed)) put(view, picture);
     if (view_.inspect) {
         picture.samples = std::make_shared<image::Image>(engine.film().sampleCounts());
@@ -160,7 +162,7 @@ void PicturePublisher::denoise(const FilmRun& film, Haste haste, Picture& pictur
     denoised_ = isFiltered() ? filter_.update(film, haste, wantsDetails()) : view_.denoise ? filter_.last() : nullptr;
     picture.isDenoised = denoised_ != nullptr;
     picture.isLive = denoised_ && denoised_->quality == DenoiseQuality::Live;
-    if (denoised_) picture.image = picture.values = {denoised_, &denoised_->images.picture};
+    if (denoised_) picture.image = {denoised_, &denoised_->images.picture};
     if (view_.mode != ViewMode::HalfA && view_.mode != ViewMode::HalfB) return;
     const bool isA = view_.mode == ViewMode::HalfA;
     const image::Image* half = !denoised_ ? nullptr : isA ? &denoised_->images.halfA : &denoised_->images.halfB;
@@ -168,7 +170,6 @@ void PicturePublisher::denoise(const FilmRun& film, Haste haste, Picture& pictur
         picture.image = {denoised_, half};
     else if (!view_.denoise && film.settings().replicates % kHalves == 0)
         picture.image = std::make_shared<image::Image>(toImage(halfRows(film.engine().film(), isA ? 0 : 1)));
-    picture.values = picture.image;
 }
 
 // The errors of the raw picture and of the denoised one: against the reference, or estimated when that is of use.
@@ -255,7 +256,7 @@ PicturePublisher::ViewPointer PicturePublisher::viewOf(const FilmRun& film, cons
     if (view_.mode == ViewMode::Noise && hasVariance(film.engine().film()))
         return std::make_shared<ViewImage>(showNoise(film.engine().film(), view_.scale));
     if (view_.mode == ViewMode::Error && reference.fits() && picture.spp > 0)
-        return std::make_shared<ViewImage>(showError(*picture.image, reference.image(), view_.scale));
+        return std::make_shared<ViewImage>(showError(*picture.subject, reference.image(), view_.scale));
     const bool hasDetails = denoised_ && !denoised_->images.error.data.empty();
     if (view_.mode == ViewMode::DenoisedError && hasDetails)
         return std::make_shared<ViewImage>(showDenoisedError(denoised_->images, view_.scale));
@@ -305,7 +306,7 @@ void PicturePublisher::showPreview(Engine& engine, const scene::CameraDesc& came
                                    std::uint32_t width) {
     preview_ = drawPreview(engine, camera, size, width);
     Picture picture;
-    picture.image = picture.radiance = std::make_shared<image::Image>(preview_.picture);
+    picture.image = picture.radiance = picture.subject = std::make_shared<image::Image>(preview_.picture);
     picture.isPreview = true;
     const EngineReport report = engine.report();
     state_.update([&](SessionState& state) {
