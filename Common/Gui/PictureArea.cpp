@@ -79,9 +79,9 @@ PresentConstants PictureArea::constants() const {
     return constants;
 }
 
-// Who zooms in wants to see pixels.
+// Of a picture so large that smoothing would only blur them.
 bool PictureArea::showsPixels() const {
-    return gui_.view.zoom > 0 && scale() * ImGui::GetIO().DisplayFramebufferScale.x > kPixelScale;
+    return scale() * ImGui::GetIO().DisplayFramebufferScale.x > kPixelScale;
 }
 
 // Between pixels that are large enough for lines.

@@ -112,6 +112,8 @@ TEST_P(SharedWishesTest, WhatIsGreySaysWhy) {
     const auto explains = [&](const std::string& text, const std::string& why, const Place& within = {}) {
         return eventually(
             [&] {
+                pointAtNothing(); // the last tooltip may hide the text
+                pause(200);
                 const std::vector<Place> places = placesOf(text, within);
                 if (places.empty()) return false;
                 act("mousemove " + std::to_string(places.front().x()) + " " + std::to_string(places.front().y()));
@@ -124,6 +126,7 @@ TEST_P(SharedWishesTest, WhatIsGreySaysWhy) {
     EXPECT_TRUE(explains("Reload on change", "the scene is built in", kPanels));
     key("F3");
     EXPECT_TRUE(explains("Hide", "no run is selected"));
+    EXPECT_TRUE(explains("Unhide", "no run is hidden"));
     expectCleanEnd();
 }
 
