@@ -112,7 +112,7 @@ void drawHelp(Gui& gui) {
 }
 
 void drawFirstSteps(Gui& gui, const Rect& area) {
-    if (!gui.showFirstSteps || gui.errors.unread() != nullptr) return;
+    if (!gui.showFirstSteps || gui.errors.unread() != nullptr || hasMessage(gui)) return; // they stand there, too
     constexpr const char* kSteps[] = {"1  Choose a scene at the left, or by the keys 1 to 9",
                                       "2  Drag in the picture to look at it from elsewhere; N shows it raw",
                                       "3  Press F3 to compare this run with others"};

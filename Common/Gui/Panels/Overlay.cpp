@@ -9,7 +9,6 @@
 namespace rt::gui {
 namespace {
 
-constexpr double kMessageSeconds = 5;
 constexpr double kPatience = 0.3; // seconds before the user is told what takes so long
 constexpr ImGuiWindowFlags kBoxFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
@@ -109,6 +108,12 @@ void drawInspector(const Gui& gui) {
 
 } // namespace
 
+bool hasMessage(const Gui& gui) {
+    constexpr double kMessageSeconds = 5;
+    const bool isCovered = gui.errors.unread() != nullptr;
+    return !isCovered && !gui.message.empty() && ImGui::GetTime() - gui.messageTime < kMessageSeconds;
+}
+
 void drawOverlay(Gui& gui, const Rect& area, float scale) {
     drawInspector(gui);
     const float margin = 12 * scale;
@@ -118,9 +123,7 @@ void drawOverlay(Gui& gui, const Rect& area, float scale) {
     }
     const float bottom = area.y + area.height - margin - legendHeight(gui, area, scale);
     drawError(gui, area, bottom);
-    const bool isCovered = gui.errors.unread() != nullptr;
-    if (!isCovered && !gui.message.empty() && ImGui::GetTime() - gui.messageTime < kMessageSeconds)
-        drawBox("##message", area, bottom, 1, gui.message);
+    if (hasMessage(gui)) drawBox("##message", area, bottom, 1, gui.message);
 }
 
 void drawErrors(Gui& gui) {

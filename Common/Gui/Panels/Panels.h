@@ -59,5 +59,6 @@ void drawChips(const Gui& gui, const Rect& area, const Rect& image, float scale)
 // What keeps the user waiting, what has just happened and what the pointer is at, over the picture's part of the
 // window.
 void drawOverlay(Gui& gui, const Rect& area, float scale);
+bool hasMessage(const Gui& gui); // that is seen now, at the bottom of the picture
 
 } // namespace rt::gui
