@@ -16,7 +16,7 @@
 
 #include "Common/Accel/CpuAccel.h"
 #include "Common/Accel/LargeArray.h"
-#include "Common/Core/Error.h"
+#include "Common/Core/KernelSets.h"
 #include "Common/Image/SamplePlan.h"
 #include "Common/Render/RenderParams.h"
 #include "Common/Scene/CameraRecord.h"
@@ -40,26 +40,15 @@ double secondsSince(Clock::time_point start) {
 }
 
 std::span<const Kernel> kernelTable(InstructionSet set) {
+#define RT_CASE(set, suffix)  \
+    case InstructionSet::set: \
+        return {kernels_##suffix(), kKernelCount};
     switch (set) {
-#ifdef RT_KERNELS_x86_64_v4
-        case InstructionSet::X86_64_v4:
-            return {kernels_x86_64_v4(), kKernelCount};
-#endif
-#ifdef RT_KERNELS_x86_64_v3
-        case InstructionSet::X86_64_v3:
-            return {kernels_x86_64_v3(), kKernelCount};
-#endif
-#ifdef RT_KERNELS_x86_64_v2
-        case InstructionSet::X86_64_v2:
-            return {kernels_x86_64_v2(), kKernelCount};
-#endif
-#ifdef RT_KERNELS_generic
-        case InstructionSet::Generic:
-            return {kernels_generic(), kKernelCount};
-#endif
+        RT_KERNEL_SETS(RT_CASE)
         default:
-            throw UsageError(std::string("this program has no kernels for ") + name(set));
+            failWithoutKernels(set);
     }
+#undef RT_CASE
 }
 
 int count(shared::Features features) {

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <string>
 
+#include "Common/Core/Error.h"
+
 #if defined(__x86_64__) || defined(_M_X64)
 #define RT_X86 1
 #if defined(_MSC_VER)
@@ -115,6 +117,10 @@ const char* name(InstructionSet set) {
             break;
     }
     return "generic";
+}
+
+void failWithoutKernels(InstructionSet set) {
+    throw UsageError(std::string("this program has no kernels for a processor of ") + name(set));
 }
 
 const char* processorName() {

@@ -10,6 +10,9 @@ InstructionSet bestInstructionSet();
 
 const char* name(InstructionSet set); // "x86-64-v3"
 
+// Throws the UsageError that says so.
+[[noreturn]] void failWithoutKernels(InstructionSet set);
+
 // The processor's marketing name, or its architecture where that is unknown.
 const char* processorName();
 

@@ -1,8 +1,6 @@
 #include "Common/Accel/Traverse/RayQuery.h"
 
-#include <string>
-
-#include "Common/Core/Error.h"
+#include "Common/Core/KernelSets.h"
 
 namespace rt::accel {
 
@@ -12,32 +10,21 @@ extern const RayQuery kRayQuery_x86_64_v3;
 extern const RayQuery kRayQuery_x86_64_v4;
 
 const RayQuery* rayQuery(InstructionSet set) {
+#define RT_CASE(set, suffix)  \
+    case InstructionSet::set: \
+        return &kRayQuery_##suffix;
     switch (set) {
-#ifdef RT_KERNELS_x86_64_v4
-        case InstructionSet::X86_64_v4:
-            return &kRayQuery_x86_64_v4;
-#endif
-#ifdef RT_KERNELS_x86_64_v3
-        case InstructionSet::X86_64_v3:
-            return &kRayQuery_x86_64_v3;
-#endif
-#ifdef RT_KERNELS_x86_64_v2
-        case InstructionSet::X86_64_v2:
-            return &kRayQuery_x86_64_v2;
-#endif
-#ifdef RT_KERNELS_generic
-        case InstructionSet::Generic:
-            return &kRayQuery_generic;
-#endif
+        RT_KERNEL_SETS(RT_CASE)
         default:
             return nullptr;
     }
+#undef RT_CASE
 }
 
 InstructionSet usableInstructionSet() {
     for (int set = static_cast<int>(bestInstructionSet()); set >= 0; --set)
         if (rayQuery(static_cast<InstructionSet>(set)) != nullptr) return static_cast<InstructionSet>(set);
-    throw UsageError(std::string("this program has no kernels for a processor of ") + name(bestInstructionSet()));
+    failWithoutKernels(bestInstructionSet());
 }
 
 const RayQuery& rayQuery() {

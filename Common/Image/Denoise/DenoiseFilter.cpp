@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
-#include "Common/Core/CpuFeatures.h"
-#include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
+#include "Common/Core/KernelSets.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Image/Denoise/DenoiseKernel.h"
 #include "Common/Image/Denoise/FeatureSpace.h"
@@ -21,19 +19,11 @@ using shared::kDenoiseBandwidths;
 // The best that this processor runs, of those that the program was built with.
 DenoiseKernel bestKernel() {
     const InstructionSet best = bestInstructionSet();
-#ifdef RT_KERNELS_x86_64_v4
-    if (best >= InstructionSet::X86_64_v4) return denoiseKernel_x86_64_v4();
-#endif
-#ifdef RT_KERNELS_x86_64_v3
-    if (best >= InstructionSet::X86_64_v3) return denoiseKernel_x86_64_v3();
-#endif
-#ifdef RT_KERNELS_x86_64_v2
-    if (best >= InstructionSet::X86_64_v2) return denoiseKernel_x86_64_v2();
-#endif
-#ifdef RT_KERNELS_generic
-    if (best == InstructionSet::Generic) return denoiseKernel_generic();
-#endif
-    throw UsageError(std::string("this program has no kernels for ") + name(best));
+#define RT_TAKE(set, suffix) \
+    if (best >= InstructionSet::set) return denoiseKernel_##suffix();
+    RT_KERNEL_SETS(RT_TAKE)
+#undef RT_TAKE
+    failWithoutKernels(best);
 }
 
 // ---- features ------------------------------------------------------------------------------------------------------

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "Common/Core/CpuFeatures.h"
-#include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
+#include "Common/Core/KernelSets.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Image/Denoise/Planes.h"
 
@@ -17,19 +15,11 @@ constexpr std::size_t kRowsAtATime = 4; // that a thread takes
 
 LiveKernel bestLiveKernel() {
     const InstructionSet best = bestInstructionSet();
-#ifdef RT_KERNELS_x86_64_v4
-    if (best >= InstructionSet::X86_64_v4) return liveKernel_x86_64_v4();
-#endif
-#ifdef RT_KERNELS_x86_64_v3
-    if (best >= InstructionSet::X86_64_v3) return liveKernel_x86_64_v3();
-#endif
-#ifdef RT_KERNELS_x86_64_v2
-    if (best >= InstructionSet::X86_64_v2) return liveKernel_x86_64_v2();
-#endif
-#ifdef RT_KERNELS_generic
-    if (best == InstructionSet::Generic) return liveKernel_generic();
-#endif
-    throw UsageError(std::string("this program has no kernels for ") + name(best));
+#define RT_TAKE(set, suffix) \
+    if (best >= InstructionSet::set) return liveKernel_##suffix();
+    RT_KERNEL_SETS(RT_TAKE)
+#undef RT_TAKE
+    failWithoutKernels(best);
 }
 
 template <class Work>
