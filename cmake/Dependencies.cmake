@@ -46,6 +46,18 @@ function(rt_require name debian vcpkg)
     endif()
 endfunction()
 
+# rt_link_optional(<target> PRIVATE|INTERFACE <dependency>...)
+# What sources do with a dependency that may not be there stands behind RT_HAS_<NAME>.
+function(rt_link_optional target scope)
+    foreach(name IN LISTS ARGN)
+        if(TARGET rt::${name})
+            string(TOUPPER ${name} upper)
+            target_link_libraries(${target} ${scope} rt::${name})
+            target_compile_definitions(${target} ${scope} RT_HAS_${upper})
+        endif()
+    endforeach()
+endfunction()
+
 rt_require(glm libglm-dev glm PACKAGE glm TARGETS glm::glm-header-only glm::glm PKGCONFIG glm HEADER glm/glm.hpp)
 rt_require(spdlog libspdlog-dev spdlog PACKAGE spdlog TARGETS spdlog::spdlog PKGCONFIG spdlog)
 rt_require(json nlohmann-json3-dev nlohmann-json PACKAGE nlohmann_json TARGETS nlohmann_json::nlohmann_json
@@ -64,6 +76,10 @@ rt_require(openexr libopenexr-dev openexr PACKAGE OpenEXR TARGETS OpenEXR::OpenE
 find_package(TIFF 4.5 QUIET)
 rt_dependency(tiff PACKAGE tiff VERSION 4.5 TARGETS TIFF::TIFF PKGCONFIG libtiff-4>=4.5)
 rt_dependency(webp PACKAGE WebP TARGETS WebP::webp PKGCONFIG libwebp)
+
+# Of compressed glTF, likewise.
+rt_dependency(draco PACKAGE draco TARGETS draco::draco PKGCONFIG draco)
+rt_dependency(meshoptimizer PACKAGE meshoptimizer TARGETS meshoptimizer::meshoptimizer)
 
 # Of the window, which can be left out. ImGui with its backends for GLFW and Vulkan.
 rt_dependency(glfw PACKAGE glfw3 TARGETS glfw PKGCONFIG glfw3)

@@ -74,7 +74,7 @@ TEST(GltfMalformed, EveryMistakeIsNamed) {
         {"/asset/minVersion", "2.1", "/asset/minVersion: \"2.1\": must be 2.0"},
         {"/asset/minVersion", 2, "/asset/minVersion"},
         {"/extensionsRequired", {"X_other"}, "/extensionsRequired/0: extension X_other is not supported"},
-        {"/extensionsRequired", {"KHR_draco_mesh_compression"}, "KHR_draco_mesh_compression is not supported"},
+        {"/extensionsRequired", {"KHR_texture_basisu"}, "KHR_texture_basisu is not supported"},
         {"/scene", 7, "/scene: 7"},
         {"/scenes/0/nodes/0", 17, "/scenes/0/nodes/0: 17"},
         {"/scenes/0/nodes/0", -1, "/scenes/0/nodes/0: -1"},

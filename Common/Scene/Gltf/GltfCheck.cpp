@@ -8,6 +8,8 @@
 
 #include "Common/Core/Printable.h"
 #include "Common/Scene/Counted.h"
+#include "Common/Scene/Gltf/GltfDraco.h"
+#include "Common/Scene/Gltf/GltfMeshopt.h"
 #include "Common/Scene/Gltf/GltfValues.h"
 
 namespace rt::scene {
@@ -19,13 +21,15 @@ constexpr std::array kSupported = {
     "KHR_materials_ior",      "KHR_materials_sheen",     "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_specular", "KHR_materials_unlit",     "KHR_materials_transmission",
     "KHR_materials_variants", "KHR_materials_volume",    "KHR_mesh_quantization",
-    "KHR_texture_transform",  "EXT_mesh_gpu_instancing"};
+    "KHR_texture_transform",  "EXT_mesh_gpu_instancing", "EXT_texture_webp"};
 
 // Without a buffer view the values of an accessor are zeros, which cost a file nothing.
 constexpr std::uint64_t kMaxImplicit = 1'000'000;
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 40; // of offsets and lengths: their sums do not overflow
 
 bool isSupported(const std::string& extension) {
+    if (extension == "EXT_meshopt_compression") return knowsMeshopt();
+    if (extension == "KHR_draco_mesh_compression") return knowsDraco();
     return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
 }
 
@@ -52,6 +56,9 @@ class Checker {
         checkVersion(root_.at("asset"));
         std::vector<std::string> notices = extensions();
         buffers();
+        forEach("meshes", [this](const JsonNode& mesh) {
+            mesh.at("primitives").forEachElement([this](const JsonNode& primitive) { dracoReferences(primitive); });
+        });
         accessors();
         references();
         return notices;
@@ -111,16 +118,32 @@ class Checker {
             whole(buffer.at("byteLength")); // also 0, of which no view can be
         });
         forEach("bufferViews", [this](const JsonNode& view) {
-            const std::uint64_t end = whole(view, "byteOffset", 0) + whole(view.at("byteLength"));
-            withElement(view.at("buffer"), "buffers", [&](const JsonNode& buffer) {
-                const std::uint64_t length = whole(buffer.at("byteLength"));
-                if (end > length)
-                    view.fail("ends at byte " + std::to_string(end) + " of a buffer of " + std::to_string(length));
+            partOfBuffer(view);
+            withExtension(view, "EXT_meshopt_compression", [&](const JsonNode& meshopt) {
+                partOfBuffer(meshopt);
+                checkMeshopt(meshopt, whole(view.at("byteLength")));
             });
             if (const auto stride = view.find("byteStride"))
                 if (const std::uint64_t bytes = whole(*stride); bytes < 1 || bytes > 252)
                     stride->failValue("from 4 to 252");
         });
+    }
+
+    void partOfBuffer(const JsonNode& part) const {
+        const std::uint64_t end = whole(part, "byteOffset", 0) + whole(part.at("byteLength"));
+        withElement(part.at("buffer"), "buffers", [&](const JsonNode& buffer) {
+            const std::uint64_t length = whole(buffer.at("byteLength"));
+            if (end > length)
+                part.fail("ends at byte " + std::to_string(end) + " of a buffer of " + std::to_string(length));
+        });
+    }
+
+    // A node knows its place by those that it lies in, which therefore live as long as the call.
+    template <typename Function> // (const JsonNode& extension)
+    static void withExtension(const JsonNode& object, const char* name, const Function& function) {
+        const auto extensions = object.find("extensions");
+        const auto extension = extensions ? extensions->find(name) : std::nullopt;
+        if (extension) function(*extension);
     }
 
     // That `count` elements of `bytes` from `offset` lie within a buffer view, `stride` apart if the view says so.
@@ -169,7 +192,7 @@ class Checker {
             if (count > UINT32_MAX) accessor.at("count").failValue("at most 2^32 - 1");
             if (accessor.has("bufferView"))
                 range(accessor, whole(accessor, "byteOffset", 0), count, bytes);
-            else if (count > kMaxImplicit)
+            else if (count > kMaxImplicit && !hasDraco_)
                 accessor.at("count").failValue("at most " + std::to_string(kMaxImplicit) + " without a buffer view");
             const auto sparse = accessor.find("sparse");
             if (!sparse) return;
@@ -216,9 +239,21 @@ class Checker {
         forEach("images", [this](const JsonNode& image) { reference(image, "bufferView", "bufferViews"); });
         forEach("textures", [this](const JsonNode& texture) {
             reference(texture, "source", "images");
+            withExtension(texture, "EXT_texture_webp",
+                          [this](const JsonNode& webp) { reference(webp, "source", "images"); });
             reference(texture, "sampler", "samplers");
         });
         forEach("materials", [this](const JsonNode& material) { textureReferences(material); });
+    }
+
+    void dracoReferences(const JsonNode& primitive) {
+        withExtension(primitive, "KHR_draco_mesh_compression", [this](const JsonNode& draco) {
+            hasDraco_ = knowsDraco();
+            reference(draco.at("bufferView"), "bufferViews");
+            draco.at("attributes").forEachMember([](const std::string&, const JsonNode& id) {
+                if (whole(id) > UINT32_MAX) id.failValue("a number of 32 bits");
+            });
+        });
     }
 
     void attributes(const JsonNode& object) const {
@@ -258,6 +293,7 @@ class Checker {
     }
 
     const JsonNode& root_;
+    bool hasDraco_ = false; // which has the values of accessors without a buffer view
 };
 
 } // namespace

@@ -17,6 +17,7 @@
 #include "Common/Core/ReadFile.h"
 #include "Common/Scene/Counted.h"
 #include "Common/Scene/Gltf/GltfCheck.h"
+#include "Common/Scene/Gltf/GltfMeshopt.h"
 #include "Common/Scene/Gltf/GltfUri.h"
 #include "Common/Scene/Gltf/GltfValues.h"
 #include "Common/Scene/Json/JsonText.h"
@@ -163,6 +164,37 @@ std::string firstLine(const std::string& message) {
     return printable(message.substr(0, message.find('\n')));
 }
 
+// Indices whose accessor has no buffer view, as in compressed or sparse ones: the library would refuse the file.
+class BareIndices {
+  public:
+    // Takes them out of a document that has been checked.
+    explicit BareIndices(nlohmann::json& document) {
+        if (!document.contains("meshes")) return;
+        nlohmann::json& meshes = document["meshes"];
+        for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh) {
+            nlohmann::json& primitives = meshes[mesh]["primitives"];
+            for (std::size_t i = 0; i < primitives.size(); ++i) {
+                const auto found = primitives[i].find("indices");
+                if (found == primitives[i].end()) continue;
+                const int accessor = found->get<int>();
+                if (document["accessors"][static_cast<std::size_t>(accessor)].contains("bufferView")) continue;
+                taken_.push_back({mesh, i, accessor});
+                primitives[i].erase(found);
+            }
+        }
+    }
+    void putBack(tinygltf::Model& model) const {
+        for (const Taken& one : taken_) model.meshes[one.mesh].primitives[one.primitive].indices = one.accessor;
+    }
+
+  private:
+    struct Taken {
+        std::size_t mesh, primitive;
+        int accessor;
+    };
+    std::vector<Taken> taken_;
+};
+
 // `text`: JSON without buffers and images, of which the library has its own ideas.
 void parseRest(const std::string& text, const std::string& file, tinygltf::Model& model) {
     tinygltf::TinyGLTF parser;
@@ -184,6 +216,7 @@ void GltfFile::fail(const std::string& place, const std::string& message) const 
 }
 
 std::span<const std::byte> GltfFile::view(int bufferView) const {
+    if (const auto found = decoded.find(bufferView); found != decoded.end()) return found->second;
     const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(bufferView)];
     return buffers[static_cast<std::size_t>(view.buffer)].bytes.subspan(view.byteOffset, view.byteLength);
 }
@@ -194,6 +227,7 @@ GltfFile readGltf(const fs::path& path) {
     const std::string name = path.string();
     const auto content = std::make_shared<const std::vector<std::byte>>(readFile(path, kMaxGlbBytes));
     std::string rest;
+    std::optional<BareIndices> bare;
     {
         nlohmann::json document = parseJson(textOf(*content, name), name);
         const JsonNode root(document, name);
@@ -208,12 +242,15 @@ GltfFile readGltf(const fs::path& path) {
         file.notices.insert(file.notices.end(), reader.notices().begin(), reader.notices().end());
         document.erase("buffers");
         document.erase("images");
+        bare.emplace(document);
         rest = document.dump();
     }
     parseRest(rest, name, file.model);
+    bare->putBack(file.model);
     // checkGltf() compared with the lengths as stated.
     for (std::size_t i = 0; i < file.model.bufferViews.size(); ++i) {
         const tinygltf::BufferView& view = file.model.bufferViews[i];
+        if (knowsMeshopt() && view.extensions.count("EXT_meshopt_compression") > 0) continue; // decodeMeshopt() looks
         if (view.byteOffset + view.byteLength > file.buffers[static_cast<std::size_t>(view.buffer)].bytes.size())
             file.fail("/bufferViews/" + std::to_string(i),
                       "its buffer has no uri, and there is no binary chunk for it");

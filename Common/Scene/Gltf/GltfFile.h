@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -31,8 +32,9 @@ struct GltfFile {
     tinygltf::Model model; // but for buffers and images; what checkGltf() promises holds
     std::vector<GltfBuffer> buffers;
     std::vector<GltfImage> images;
-    std::vector<std::string> notices; // one line each
-    std::uint64_t bytes = 0;          // of the file and those of its buffers
+    std::map<int, std::vector<std::byte>> decoded; // of views whose bytes the buffers hold compressed, or not at all
+    std::vector<std::string> notices;              // one line each
+    std::uint64_t bytes = 0;                       // of the file and those of its buffers
 
     // Throws the InputError "FILE: /ARRAY/INDEX: MESSAGE".
     [[noreturn]] void fail(const std::string& place, const std::string& message) const;

@@ -21,9 +21,11 @@
 #include "Common/Scene/Gltf/GltfAccessor.h"
 #include "Common/Scene/Gltf/GltfBudget.h"
 #include "Common/Scene/Gltf/GltfCameras.h"
+#include "Common/Scene/Gltf/GltfDraco.h"
 #include "Common/Scene/Gltf/GltfFile.h"
 #include "Common/Scene/Gltf/GltfMaterials.h"
 #include "Common/Scene/Gltf/GltfMesh.h"
+#include "Common/Scene/Gltf/GltfMeshopt.h"
 #include "Common/Scene/Gltf/GltfNodes.h"
 #include "Common/Scene/Gltf/GltfSkin.h"
 #include "Common/Scene/Gltf/GltfValues.h"
@@ -47,10 +49,19 @@ bool isIdentity(const Affine& map) {
     return map.linear == glm::dmat3(1) && map.offset == glm::dvec3(0);
 }
 
+// With all that is compressed in it.
+GltfFile readWhole(const std::filesystem::path& path) {
+    GltfFile file = readGltf(path);
+    GltfBudget budget(file);
+    decodeMeshopt(file, budget);
+    decodeDraco(file, budget);
+    return file;
+}
+
 class Importer {
   public:
     explicit Importer(const std::filesystem::path& path)
-        : file_(readGltf(path)), budget_(file_), materials_(file_, scene_), nodes_(file_, budget_) {
+        : file_(readWhole(path)), budget_(file_), materials_(file_, scene_), nodes_(file_, budget_) {
         scene_.id = path.filename().string();
         scene_.title = printable(scene_.id);
     }
@@ -126,7 +137,7 @@ class Importer {
             const tinygltf::Primitive& primitive = mesh.primitives[i];
             const std::string place = "/meshes/" + std::to_string(posed.mesh) + "/primitives/" + std::to_string(i);
             if (primitive.extensions.count("KHR_draco_mesh_compression") > 0 && !isTriangles(primitive))
-                file_.fail(place, "is compressed by KHR_draco_mesh_compression, which is not supported");
+                file_.fail(place, "is compressed by Draco, which this build lacks");
             surfaces.push_back({&primitive, materials_.use(primitive.material), posed, joints, place, {}});
             budget_.spend(elementCount(file_, primitive, useOf(surfaces.back())), place);
         }

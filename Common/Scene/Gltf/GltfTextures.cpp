@@ -45,6 +45,16 @@ int wholeOf(const tinygltf::Value& object, const char* key, int usual) {
     return static_cast<int>(std::clamp(numberOf(object, key, usual), -1.0, 1e9));
 }
 
+// Builds without WebP draw the image that a file has for them, if it has one.
+int imageOf(const tinygltf::Texture& texture) {
+    const auto webp = texture.extensions.find("EXT_texture_webp");
+    if (webp == texture.extensions.end()) return texture.source;
+#ifndef RT_HAS_WEBP
+    if (texture.source >= 0) return texture.source;
+#endif
+    return wholeOf(webp->second, "source", texture.source);
+}
+
 } // namespace
 
 GltfSlot::GltfSlot(const tinygltf::Value& object, const char* key) {
@@ -88,11 +98,12 @@ std::string GltfTextures::texture(const GltfSlot& slot, ColorSpace space, const 
         return {};
     }
     const tinygltf::Texture& source = file_.model.textures[static_cast<std::size_t>(slot.index)];
-    if (source.source < 0) {
-        leaveOut("a texture without a PNG or JPEG image");
+    const int found = imageOf(source);
+    if (found < 0) {
+        leaveOut("a texture without a PNG, JPEG or WebP image");
         return {};
     }
-    const auto image = static_cast<std::size_t>(source.source);
+    const auto image = static_cast<std::size_t>(found);
     ImageTexture texture;
     if (!locate(image, texture)) return {};
     texture.standIn = kWhiteStandIn;
