@@ -148,7 +148,7 @@ is_minimal() {
 # bytes.
 make_packages() {
     local date
-    date=$(sed -n 's/^ -- .*>  //p' cmake/packages/changelog | head -n 1)
+    date=$(sed -n 's/^ -- .*  //p' cmake/packages/changelog | head -n 1)
     SOURCE_DATE_EPOCH=$(date --date="$date" +%s)
     export SOURCE_DATE_EPOCH
     umask 022

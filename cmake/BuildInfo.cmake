@@ -35,7 +35,7 @@ function(rt_add_build_info target)
     add_custom_target(rt-build-facts COMMAND ${command} BYPRODUCTS ${folder}/BuildFacts.h VERBATIM)
     add_dependencies(${target} rt-build-facts)
     target_include_directories(${target} PRIVATE ${folder})
-    # Each commit compiles this alone.
+    # Each commit, and each version, compiles this alone.
     set_source_files_properties(${PROJECT_SOURCE_DIR}/Common/Core/BuildInfo.cpp PROPERTIES
-                                SKIP_UNITY_BUILD_INCLUSION ON)
+                                SKIP_UNITY_BUILD_INCLUSION ON COMPILE_DEFINITIONS RT_VERSION="${PROJECT_VERSION}")
 endfunction()

@@ -45,7 +45,7 @@ if(UNIX AND NOT APPLE)
     set(desktop ${PROJECT_SOURCE_DIR}/Assets/desktop)
     install(FILES ${desktop}/ray-tracing-cpu.desktop ${desktop}/ray-tracing-gpu.desktop
                   ${desktop}/ray-tracing-open.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT programs)
-    install(FILES ${desktop}/org.ray_tracing_twins.RayTracingTwins.metainfo.xml
+    install(FILES ${desktop}/org.example.RayTracingTwins.metainfo.xml
             DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo COMPONENT programs)
     install(FILES ${desktop}/ray-tracing-twins.mime.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages
             RENAME ray-tracing-twins.xml COMPONENT programs)

@@ -4,6 +4,7 @@
 #include <ctime>
 #include <thread>
 
+#include "Common/Core/BuildInfo.h"
 #include "Common/Core/CpuFeatures.h"
 
 namespace rt::bench {
@@ -44,7 +45,7 @@ std::string systemName() {
 
 std::vector<Fact> machineFacts() {
     std::vector<Fact> facts = {{"date", today()},
-                               {"program", "ray-tracing-bench " RT_VERSION},
+                               {"program", "ray-tracing-bench " + programVersion()},
                                {"compiler", compiler()},
                                {"system", systemName()},
                                {"processor", processorName()},

@@ -4,9 +4,14 @@
 
 namespace rt {
 
+const std::string& programVersion() {
+    static const std::string version = RT_VERSION;
+    return version;
+}
+
 std::string versionText(const std::string& program) {
     const std::string commit = RT_COMMIT;
-    return program + " " RT_VERSION "\n" + (commit.empty() ? "" : "commit " + commit + "\n") +
+    return program + " " + programVersion() + "\n" + (commit.empty() ? "" : "commit " + commit + "\n") +
            "features: " RT_FEATURES "\ncompilers: " RT_COMPILERS;
 }
 

@@ -4,6 +4,8 @@
 
 namespace rt {
 
+const std::string& programVersion(); // "1.0.0"
+
 // What --version prints: "ray-tracing-cpu 1.0.0" and a line each on commit, features and compilers.
 std::string versionText(const std::string& program);
 

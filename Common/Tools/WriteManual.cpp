@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "Common/Core/BuildInfo.h"
 #include "Common/Core/RunMain.h"
 #include "Common/Manual/Completions.h"
 #include "Common/Manual/ManPage.h"
@@ -25,7 +26,7 @@ void write(const fs::path& file, const std::string& text) {
 int writeManual(const fs::path& folder) {
     const std::vector<std::string> scenes = rt::tools::sceneIds();
     for (const rt::manual::Page& page : rt::tools::allPages()) {
-        write(folder / "man" / (page.name + ".1"), rt::manual::manPage(page, RT_VERSION));
+        write(folder / "man" / (page.name + ".1"), rt::manual::manPage(page, rt::programVersion()));
         write(folder / "bash" / page.name, rt::manual::bashCompletion(page, scenes));
         write(folder / "zsh" / ("_" + page.name), rt::manual::zshCompletion(page, scenes));
         write(folder / "fish" / (page.name + ".fish"), rt::manual::fishCompletion(page, scenes));

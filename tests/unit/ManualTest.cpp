@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "Common/Core/BuildInfo.h"
 #include "Common/Manual/Completions.h"
 #include "Common/Manual/Help.h"
 #include "Common/Manual/ManPage.h"
@@ -21,7 +22,7 @@ namespace {
 using tools::allPages;
 
 std::string pageOfMan(const Page& page) {
-    return manPage(page, RT_VERSION);
+    return manPage(page, programVersion());
 }
 
 std::string withoutBackslashes(std::string text) {

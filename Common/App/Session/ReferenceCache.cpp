@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "Common/Core/AtomicFile.h"
+#include "Common/Core/BuildInfo.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Hash.h"
 #include "Common/Core/Log.h"
@@ -44,7 +45,7 @@ fs::path ReferenceCache::fileOf(const ReferenceKey& key) const {
     const std::uint64_t parts[] = {kFormat,      key.sceneHash,        key.width,     key.height,
                                    key.maxDepth, kReferenceReplicates, kReferenceSeed};
     std::uint64_t hash = hashBytes(std::as_bytes(std::span(parts)));
-    const std::string version = RT_VERSION;
+    const std::string& version = programVersion();
     hash = hashBytes(std::as_bytes(std::span(version.data(), version.size())), hash);
     const scene::CameraDesc& c = key.camera;
     const double camera[] = {c.lookFrom.x, c.lookFrom.y, c.lookFrom.z, c.lookAt.x,    c.lookAt.y,     c.lookAt.z,

@@ -7,6 +7,7 @@
 #include "Common/App/Interactive/CameraController.h"
 #include "Common/App/Session/FeatureNames.h"
 #include "Common/App/Session/ImagePart.h"
+#include "Common/Core/BuildInfo.h"
 
 namespace rt::app {
 namespace {
@@ -62,7 +63,7 @@ std::string renderNote(const Options& options, const scene::CameraDesc& camera, 
                        const image::Film& film) {
     const Json json{{"version", 1},
                     {"program", options.program},
-                    {"program_version", RT_VERSION},
+                    {"program_version", programVersion()},
                     {"device", report.device},
                     {"spp_done", samplesPerPixel(options, film)},
                     {"arguments", argumentList(options, camera, report)}};

@@ -1,0 +1,20 @@
+# One version wherever it stands: in CMakeLists.txt, vcpkg.json, the changelog of users and the data for software centres.
+#   cmake -DROOT=... -P Version.cmake
+cmake_minimum_required(VERSION 3.25)
+
+# expect_version FILE PATTERN: the first text that matches the pattern has the version of CMakeLists.txt in its
+# parentheses.
+function(expect_version file pattern)
+    file(READ ${ROOT}/${file} text)
+    string(REGEX MATCH "${pattern}" found "${text}")
+    if(NOT CMAKE_MATCH_1 STREQUAL version)
+        message(SEND_ERROR "${file}: '${found}' is not of version ${version}")
+    endif()
+endfunction()
+
+file(READ ${ROOT}/CMakeLists.txt project)
+string(REGEX MATCH "project\\([^)]* VERSION ([0-9.]+)" found "${project}")
+set(version ${CMAKE_MATCH_1})
+expect_version(vcpkg.json "\"version\": \"([0-9.]+)\"")
+expect_version(CHANGELOG.md "\n## ([0-9.]+)")
+expect_version(Assets/desktop/org.example.RayTracingTwins.metainfo.xml "<release version=\"([0-9.]+)\"")
