@@ -10,7 +10,7 @@ headless_packages=(g++ cmake ninja-build pkg-config libglm-dev libspdlog-dev nlo
 build_packages=("${headless_packages[@]}" libglfw3-dev libimgui-dev fonts-dejavu-core)
 test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang clang-format clang-tidy spirv-tools patch
                vulkan-validationlayers xvfb xdotool libx11-dev assimp-testmodels zsh fish groff-base
-               desktop-file-utils appstream shared-mime-info)
+               desktop-file-utils appstream shared-mime-info mkdocs)
 bench_packages=(libbenchmark-dev libembree-dev)
 fuzz_packages=(clang libclang-rt-dev) # which holds libFuzzer and the sanitizers; clang only recommends it
 cluster_packages=(libopenmpi-dev openmpi-bin)
@@ -250,6 +250,7 @@ case $verb in
     docs)
         install_packages "${docs_packages[@]}"
         step "Writing build/site" mkdocs build --clean
+        echo "$PWD/build/site/index.html"
         ;;
     fuzz)
         fixed=()
