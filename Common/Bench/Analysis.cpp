@@ -59,6 +59,13 @@ Figure ratio(const Figure& a, const Figure& b) {
     return a && b && *b > 0 ? Figure(*a / *b) : std::nullopt;
 }
 
+// All that is known of another program's picture, beside its errors.
+Row importedRow(Row row, const Snapshot& snapshot) {
+    row.repeats = 1;
+    row.seconds = row.secondsMin = row.secondsMax = snapshot.seconds;
+    return row;
+}
+
 Row makeRow(const Experiment& experiment, const Measured& measured, std::size_t step) {
     const auto median = [&](auto get) { return medianOf(measured, step, get); };
     const auto report = [&](auto member) {
@@ -71,6 +78,7 @@ Row makeRow(const Experiment& experiment, const Measured& measured, std::size_t 
     row.device = last.device;
     row.kernel = last.kernel;
     row.lightShapes = last.lightSampling;
+    if (measured.config.imported) return importedRow(row, measured.runs.front().snapshots[step]);
     row.spp = median([](const Run&, const Snapshot& s) { return static_cast<double>(s.spp); });
     const Summary seconds =
         image::summarise(values(measured, step, [](const Run&, const Snapshot& s) { return s.seconds; }));
@@ -172,7 +180,7 @@ void addErrors(std::vector<Row>& rows, const Measured& measured, const image::Re
         bool whole = true; // no pixel without a sample, as where time is too short
         for (const Run& run : measured.runs) {
             if (step >= run.snapshots.size()) continue;
-            whole = whole && run.snapshots[step].spp > 0;
+            whole = whole && (measured.config.imported || run.snapshots[step].spp > 0);
             all.push_back(image::analyseError(run.snapshots[step].image, reference, kDependentSide));
         }
         if (whole) addError(rows[step], all);

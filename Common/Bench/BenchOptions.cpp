@@ -8,6 +8,7 @@
 
 #include "Common/App/Options/OptionValues.h"
 #include "Common/Bench/Config.h"
+#include "Common/Bench/Import.h"
 #include "Common/Bench/Suite.h"
 #include "Common/Core/BuildInfo.h"
 #include "Common/Core/Error.h"
@@ -28,6 +29,7 @@ constexpr const char* kBenchDescription =
 
 struct BenchFlags {
     BenchOptions options;
+    std::vector<std::string> imports; // three words each
     bool quick = false;
 };
 
@@ -52,12 +54,19 @@ void addSuiteFlags(CLI::App& app, BenchFlags& flags) {
         ->type_name("DIR");
     app.add_option("--device", options.device, "Vulkan device by index or part of its name")->type_name("N|TEXT");
     app.add_flag("--fresh-references", options.freshReferences, "do not read references from the cache");
+    app.add_option("--import", flags.imports,
+                   "set another program's picture, of linear radiance and rendered in so many seconds, beside the "
+                   "suite's, which must render one scene in one size; of one name several are a curve")
+        ->type_name("NAME IMAGE SECONDS")
+        ->type_size(3)
+        ->allow_extra_args(false);
     app.add_flag("-q,--quiet", options.quiet, "no progress");
 }
 
 // What is done instead of a suite.
 void addOtherModes(CLI::App& app, BenchOptions& options) {
-    std::vector<CLI::Option*> others = {app.get_option("SUITE"), app.get_option("--quick"), app.get_option("--report")};
+    std::vector<CLI::Option*> others = {app.get_option("SUITE"), app.get_option("--quick"), app.get_option("--report"),
+                                        app.get_option("--import")};
     const auto exclude = [&others](CLI::Option* option) {
         for (CLI::Option* other : others) option->excludes(other);
         others.push_back(option);
@@ -93,6 +102,8 @@ manual::Page benchPageOf(const CLI::App& app) {
     page.essentials = {"--list-suites", "--scene", "--engine", "--report", "--device", "--compare"};
     page.environment = {{"XDG_CACHE_HOME", "ray-tracing/references in it holds references that were rendered"}};
     page.examples = {{"ray-tracing-bench --report report", "Measure the suite quick and write a report of it."},
+                     {"ray-tracing-bench --scene veach-mis --import Another theirs.exr 12.5 --report report",
+                      "Set another renderer's picture beside our own."},
                      {"ray-tracing-bench --compare before after", "Tell whether the second report is worse."}};
     return page;
 }
@@ -117,6 +128,7 @@ std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& ar
     if (flags.quick && app.count("SUITE") > 0 && options.suite != "quick")
         throw UsageError("--quick: " + options.suite + " is another suite");
     checkEngines(options.engines);
+    options.imports = parseImports(flags.imports);
     return options;
 }
 

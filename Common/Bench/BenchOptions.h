@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "Common/Bench/Suite.h"
 #include "Common/Manual/Page.h"
 
 namespace rt::bench {
@@ -18,6 +19,7 @@ struct BenchOptions {
     bool freshReferences = false;
     bool quiet = false;
     std::vector<std::string> compare; // two reports; empty: measure
+    std::vector<Import> imports;      // beside what is measured
     bool listSuites = false;
     bool stability = false; // the stability suite instead of a suite
     bool parts = false;     // what parts of the work cost instead of a suite

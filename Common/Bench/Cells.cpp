@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 namespace rt::bench {
 
@@ -33,8 +34,13 @@ std::string withInterval(const Figure& value, const Figure& half) {
     return text;
 }
 
+std::string sceneName(const std::string& scene) {
+    return std::filesystem::path(scene).filename().string();
+}
+
 std::string nameOf(const Config& config, const std::vector<const Config*>& others,
                    const std::function<bool(const Axis&)>& counts) {
+    if (config.imported) return config.engine;
     std::string name;
     for (const Axis& axis : axes()) {
         std::set<std::string> values;

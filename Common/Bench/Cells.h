@@ -18,6 +18,8 @@ std::string whole(const Figure& figure);                           // rounded
 std::string threeDigits(const Figure& figure);                     // significant ones
 std::string withInterval(const Figure& value, const Figure& half); // "0.123 ±4 %"
 
+std::string sceneName(const std::string& scene); // of a file without its folders
+
 // What tells a configuration from the others, by the axes that count.
 std::string nameOf(const Config& config, const std::vector<const Config*>& others,
                    const std::function<bool(const Axis&)>& counts);
@@ -34,6 +36,7 @@ template <class T>
 Table makeTable(const std::vector<Column<T>>& columns, const std::vector<const T*>& rows) {
     Table table;
     table.rows.resize(rows.size());
+    table.origins.assign(rows.begin(), rows.end());
     for (const Column<T>& column : columns) {
         std::vector<std::string> cells;
         cells.reserve(rows.size());
@@ -55,7 +58,9 @@ std::vector<Column<T>> axisColumns(const std::vector<const T*>& rows) {
         for (const T* row : rows) values.insert(axis.get(row->config));
         if (axis.name == "height") continue;
         if (values.size() > 1 || axis.name == "scene" || axis.name == "engine")
-            columns.push_back({std::string(axis.name), [&axis](const T& row) { return axis.get(row.config); }});
+            columns.push_back({std::string(axis.name), [&axis](const T& row) {
+                                   return isKnown(axis, row.config) ? axis.get(row.config) : kUnknown;
+                               }});
     }
     return columns;
 }

@@ -54,11 +54,22 @@ class SvgWriter {
         text_ += "\" " + style + "/>\n";
     }
     void dot(double x, double y, const std::string& color) {
-        text_ += "<circle cx=\"" + number(x) + "\" cy=\"" + number(y) + "\" r=\"2.8\" fill=\"" + color + "\"/>\n";
+        text_ += "<circle" + at(x, y, 2.8) + " fill=\"" + color + "\"/>\n";
+    }
+    // A dot within one that is not seen: large enough to be met.
+    void linkedDot(double x, double y, const std::string& color, const std::string& link, const std::string& caption) {
+        text_ += "<a href=\"" + escapeMarkup(link) + "\"><title>" + escapeMarkup(caption) + "</title><circle" +
+                 at(x, y, 8) + " fill=\"transparent\" stroke=\"none\"/>";
+        dot(x, y, color);
+        text_ += "</a>\n";
     }
     std::string finish() { return text_ + "</svg>\n"; }
 
   private:
+    static std::string at(double x, double y, double radius) {
+        return " cx=\"" + number(x) + "\" cy=\"" + number(y) + "\" r=\"" + number(radius) + "\"";
+    }
+
     std::string text_;
 };
 
@@ -107,21 +118,32 @@ void drawLegend(SvgWriter& svg, const std::string& name, std::size_t index, cons
     svg.text(kLeft + 32, at, name, "");
 }
 
-void drawLine(SvgWriter& svg, const ChartLine& line, std::size_t index, const Scale& x, const Scale& y) {
+using LinkOf = std::function<std::string(Origin)>;
+
+void drawPoint(SvgWriter& svg, const ChartPoint& point, const std::string& color, const Scale& x, const Scale& y,
+               const LinkOf& linkOf) {
+    if (point.error > 0) {
+        const double low = std::max(point.y - point.error, std::pow(10.0, y.low));
+        svg.line(x(point.x), y(low), x(point.x), y(std::min(point.y + point.error, std::pow(10.0, y.high))),
+                 "stroke=\"" + color + "\" stroke-opacity=\"0.5\"");
+    }
+    const std::string link = linkOf && point.origin != nullptr ? linkOf(point.origin) : "";
+    if (link.empty())
+        svg.dot(x(point.x), y(point.y), color);
+    else
+        svg.linkedDot(x(point.x), y(point.y), color, link, point.caption);
+}
+
+void drawLine(SvgWriter& svg, const ChartLine& line, std::size_t index, const Scale& x, const Scale& y,
+              const LinkOf& linkOf) {
     const std::string color = kColors[index % kColors.size()];
     const std::string dash = kDashes[index / kColors.size() % kDashes.size()];
     std::vector<std::pair<double, double>> points;
-    for (const ChartPoint& p : line.points) {
-        points.emplace_back(x(p.x), y(p.y));
-        if (p.error > 0) {
-            const double low = std::max(p.y - p.error, std::pow(10.0, y.low));
-            svg.line(x(p.x), y(low), x(p.x), y(std::min(p.y + p.error, std::pow(10.0, y.high))),
-                     "stroke=\"" + color + "\" stroke-opacity=\"0.5\"");
-        }
-        svg.dot(x(p.x), y(p.y), color);
-    }
+    points.reserve(line.points.size());
+    for (const ChartPoint& p : line.points) points.emplace_back(x(p.x), y(p.y));
     svg.polyline(points, "stroke=\"" + color + "\" stroke-width=\"1.6\"" +
                              (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\""));
+    for (const ChartPoint& p : line.points) drawPoint(svg, p, color, x, y, linkOf); // above the line
     drawLegend(
         svg, line.name, index, y,
         "stroke=\"" + color + "\" stroke-width=\"2\"" + (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\""));
@@ -140,7 +162,7 @@ void drawGuide(SvgWriter& svg, const ChartLine& line, std::size_t index, const S
 
 } // namespace
 
-std::string toSvg(const Chart& original) {
+std::string toSvg(const Chart& original, const LinkOf& linkOf) {
     Chart chart = original;
     Scale x{1e9, -1e9, kLeft, kWidth - kRight};
     Scale y{1e9, -1e9, kTop + kPlotHeight, kTop + 14};
@@ -163,7 +185,7 @@ std::string toSvg(const Chart& original) {
     SvgWriter svg(kTop + kPlotHeight + kBottom + kLegendLine * static_cast<double>(legends));
     drawAxes(svg, chart, x, y);
     if (chart.minusOne) drawGuide(svg, chart.lines.front(), chart.lines.size(), x, y);
-    for (std::size_t i = 0; i < chart.lines.size(); ++i) drawLine(svg, chart.lines[i], i, x, y);
+    for (std::size_t i = 0; i < chart.lines.size(); ++i) drawLine(svg, chart.lines[i], i, x, y, linkOf);
     return svg.finish();
 }
 

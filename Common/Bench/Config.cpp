@@ -86,6 +86,10 @@ const Axis* findAxis(std::string_view name) {
     return found == std::end(kAxes) ? nullptr : found;
 }
 
+bool isKnown(const Axis& axis, const Config& config) {
+    return !config.imported || (axis.says == Says::Where && axis.name != "threads" && axis.name != "ranks");
+}
+
 std::string keyOf(const Config& config) {
     std::string key;
     for (const Axis& axis : axes()) key += axis.get(config) + "|";

@@ -14,6 +14,7 @@ struct Config {
     std::string scene = "cornell-box-lights"; // id or file
     std::string engine = "multi";
     std::uint32_t threads = 0;    // CPU engines: 0 means all; of a rank, where there are several
+    bool imported = false;        // a picture of another program, whose name is `engine`; its method is not known
     std::uint32_t ranks = 1;      // programs that render together, started by mpirun where there are several
     app::RenderSettings settings; // height 0: from the scene's aspect; spp and seed are no part of it
 
@@ -30,6 +31,9 @@ struct Axis {
 };
 std::span<const Axis> axes();
 const Axis* findAxis(std::string_view name); // null: there is none
+
+// Of an imported picture only what it shows is, and who rendered it.
+bool isKnown(const Axis& axis, const Config& config);
 
 // The axes' values, joined: equal for equal configurations.
 std::string keyOf(const Config& config);

@@ -1,36 +1,20 @@
 #include "Common/Bench/Document.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
+#include <variant>
+#include <vector>
 
-#include "Common/Bench/Markup.h"
-#include "Common/Bench/Pictures.h"
+#include "Common/Bench/Overloaded.h"
 
 namespace rt::bench {
 namespace {
-
-template <class... Functions>
-struct Overloaded : Functions... {
-    using Functions::operator()...;
-};
-template <class... Functions>
-Overloaded(Functions...) -> Overloaded<Functions...>;
 
 std::string escapeCell(const std::string& text) {
     std::string escaped;
     for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
     return escaped;
-}
-
-// Columns of numbers, with units and intervals or unknown, which go to the right.
-std::vector<bool> numberColumns(const Table& table) {
-    const auto isNumber = [](const std::string& cell) {
-        return cell == "–" || (cell.find_first_of("0123456789∞") != std::string::npos &&
-                               cell.find_first_not_of("0123456789.-+e%~<±∞x ") == std::string::npos);
-    };
-    std::vector<bool> numbers(table.header.size(), true);
-    for (std::size_t c = 0; c < numbers.size(); ++c)
-        for (const auto& row : table.rows) numbers[c] = numbers[c] && isNumber(row[c]);
-    return numbers;
 }
 
 // Columns padded, so that it reads well as plain text too.
@@ -63,40 +47,18 @@ std::string markdownTable(Table table) {
     return text;
 }
 
-std::string htmlTable(const Table& table) {
-    const std::vector<bool> numbers = numberColumns(table);
-    std::string text = "<div class=\"wide\"><table>\n";
-    const auto line = [&](const std::vector<std::string>& cells, const std::string& tag) {
-        text += "<tr>";
-        for (std::size_t c = 0; c < cells.size(); ++c)
-            text += "<" + tag + (numbers[c] ? " class=\"n\">" : ">") + escapeMarkup(cells[c]) + "</" + tag + ">";
-        text += "</tr>\n";
-    };
-    const auto isEmpty = [](const std::string& cell) { return cell.empty(); };
-    if (!std::all_of(table.header.begin(), table.header.end(), isEmpty)) line(table.header, "th");
-    for (const auto& row : table.rows) line(row, "td");
-    return text + "</table></div>\n";
-}
-
-std::string htmlGrid(const PictureGrid& grid) {
-    std::string text = "<div class=\"grid\">\n";
-    for (const Picture& picture : grid.pictures)
-        text += "<figure><img src=\"" + dataUri(picture.image) + "\" alt=\"" + escapeMarkup(picture.caption) +
-                "\"><figcaption>" + escapeMarkup(picture.caption) + "</figcaption></figure>\n";
-    return text + "</div>\n";
-}
-
-constexpr const char* kStyle =
-    "body{font:15px/1.45 sans-serif;margin:2em auto;max-width:1150px;padding:0 1em;color:#222;background:#fff}"
-    "h1,h2,h3{line-height:1.2}h2{margin-top:2em;border-bottom:1px solid #ccc}"
-    ".wide{overflow-x:auto}table{border-collapse:collapse;margin:.6em 0;font-size:13px}"
-    "th,td{padding:.2em .6em;border:1px solid #ddd;text-align:left;white-space:nowrap}th{background:#f4f4f4}"
-    ".n{text-align:right}"
-    ".charts{display:inline-block;margin:.4em .6em .4em 0;vertical-align:top}"
-    ".grid{display:flex;flex-wrap:wrap;gap:8px}figure{margin:0;width:180px}img{width:180px;image-rendering:auto}"
-    "figcaption{font-size:12px}";
-
 } // namespace
+
+std::vector<bool> numberColumns(const Table& table) {
+    const auto isNumber = [](const std::string& cell) {
+        return cell == "–" || (cell.find_first_of("0123456789∞") != std::string::npos &&
+                               cell.find_first_not_of("0123456789.-+e%~<±∞x ") == std::string::npos);
+    };
+    std::vector<bool> numbers(table.header.size(), true);
+    for (std::size_t c = 0; c < numbers.size(); ++c)
+        for (const auto& row : table.rows) numbers[c] = numbers[c] && isNumber(row[c]);
+    return numbers;
+}
 
 std::string toMarkdown(const Document& document, const std::function<std::string(std::size_t)>& linkOf) {
     std::string text;
@@ -113,23 +75,6 @@ std::string toMarkdown(const Document& document, const std::function<std::string
     };
     for (const Block& block : document) std::visit(write, block);
     return text;
-}
-
-std::string toHtml(const Document& document, const std::string& title) {
-    std::string text = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" +
-                       escapeMarkup(title) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n";
-    const auto write = Overloaded{
-        [&](const Heading& h) {
-            const std::string tag = "h" + std::to_string(h.level);
-            text += "<" + tag + ">" + escapeMarkup(h.text) + "</" + tag + ">\n";
-        },
-        [&](const Paragraph& p) { text += "<p>" + escapeMarkup(p.text) + "</p>\n"; },
-        [&](const Table& t) { text += htmlTable(t); },
-        [&](const Chart& c) { text += "<div class=\"charts\">" + toSvg(c) + "</div>\n"; },
-        [&](const PictureGrid& g) { text += htmlGrid(g); },
-    };
-    for (const Block& block : document) std::visit(write, block);
-    return text + "</body>\n</html>\n";
 }
 
 std::vector<std::string> svgsOf(const Document& document) {

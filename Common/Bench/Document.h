@@ -1,4 +1,4 @@
-// A report as headings, paragraphs, tables, charts and pictures, written as Markdown or as one HTML file.
+// A report as headings, paragraphs, tables, charts and pictures, written as Markdown or, by ReportPage.h, as HTML.
 #pragma once
 #include <functional>
 #include <string>
@@ -20,6 +20,7 @@ struct Paragraph {
 struct Table {
     std::vector<std::string> header;
     std::vector<std::vector<std::string>> rows; // each as long as the header
+    std::vector<Origin> origins = {};           // of the rows, or empty; of one table alone in a document
 };
 using Block = std::variant<Heading, Paragraph, Table, Chart, PictureGrid>;
 using Document = std::vector<Block>;
@@ -28,8 +29,8 @@ using Document = std::vector<Block>;
 // not.
 std::string toMarkdown(const Document& document, const std::function<std::string(std::size_t)>& linkOf);
 
-// Self-contained.
-std::string toHtml(const Document& document, const std::string& title);
+// Columns of numbers, with units and intervals or unknown, which go to the right.
+std::vector<bool> numberColumns(const Table& table);
 
 // In the order of the document; empty ones included.
 std::vector<std::string> svgsOf(const Document& document);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "Common/Bench/Cells.h"
 #include "Common/Image/Codecs.h"
 #include "Common/Image/Display.h"
 #include "Common/Image/Metrics.h"
@@ -36,6 +37,7 @@ Image shown(const Image& radiance) {
 
 // What tells this configuration from the others.
 std::string captionOf(const Experiment& experiment, const Config& config) {
+    if (config.imported) return config.engine;
     std::string text;
     for (const auto& [axis, values] : experiment.values)
         if (values.size() > 1 && axis->name != "scene") text += (text.empty() ? "" : ", ") + axis->get(config);
@@ -67,14 +69,17 @@ PictureGrid makeGrid(const Experiment& experiment, const std::vector<Measured>& 
                      const image::Reference& reference) {
     std::uint64_t spp = ~std::uint64_t{0};
     for (const Measured& one : measured)
-        if (!one.runs.front().snapshots.empty()) spp = std::min(spp, one.runs.front().snapshots.back().spp);
+        if (!one.config.imported && !one.runs.front().snapshots.empty())
+            spp = std::min(spp, one.runs.front().snapshots.back().spp);
     PictureGrid grid{experiment.name, measured.front().config.scene, {}};
     grid.pictures.push_back({"reference", shown(reference.mean)});
     for (std::size_t i = 0; i < std::min(measured.size(), kMaxPictures); ++i) {
         const Snapshot* snapshot = atSpp(measured[i], spp);
         if (snapshot == nullptr) continue;
+        const Config& config = measured[i].config;
         const std::string caption =
-            captionOf(experiment, measured[i].config) + ", " + std::to_string(snapshot->spp) + " spp";
+            captionOf(experiment, config) + ", " +
+            (config.imported ? threeDigits(snapshot->seconds) + " s" : std::to_string(snapshot->spp) + " spp");
         grid.pictures.push_back({caption, shown(snapshot->image)});
         grid.pictures.push_back({"its error", shrunk(image::heatMap(snapshot->image, reference.mean))});
     }

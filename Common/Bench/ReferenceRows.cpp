@@ -22,7 +22,8 @@ ReferenceRow makeReferenceRow(const std::string& scene, const ReferenceRequest& 
 void verifyReference(const std::vector<std::vector<Row>>& rows, ReferenceRow& reference) {
     for (const std::vector<Row>& own : rows)
         for (const Row& row : own) {
-            if (isGpuEngine(row.config.engine) == isGpuEngine(reference.engine) || !row.biasZ) continue;
+            if (row.config.imported || !row.biasZ) continue;
+            if (isGpuEngine(row.config.engine) == isGpuEngine(reference.engine)) continue;
             reference.verifiedBy = row.config.engine;
             if (!reference.verifiedZ || std::abs(*row.biasZ) > std::abs(*reference.verifiedZ))
                 reference.verifiedZ = row.biasZ;

@@ -8,6 +8,8 @@
 #include "Common/Bench/Cells.h"
 #include "Common/Bench/ReportCharts.h"
 #include "Common/Bench/ReportEfficiency.h"
+#include "Common/Bench/ReportPage.h"
+#include "Common/Bench/ReportSummary.h"
 #include "Common/Bench/ResultsJson.h"
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
@@ -185,34 +187,6 @@ std::vector<Block> publishedBlocks(const Suite& suite, const std::vector<const R
             table};
 }
 
-// Of each experiment and scene the configuration that comes first to the error that all reach.
-std::vector<Block> winners(const Suite& suite, const Results& results) {
-    const auto isNamed = [](const Axis& axis) { return axis.name != "scene" && axis.name != "height"; };
-    Table table{{"experiment", "scene", "least time to equal relMSE", "relmse", "seconds", "gain over baseline"}, {}};
-    for (const Experiment& experiment : suite.experiments) {
-        std::vector<const Series*> own;
-        for (const Series& series : results.series)
-            if (series.experiment == experiment.name && series.secondsAtEqualError) own.push_back(&series);
-        std::map<std::string, std::vector<const Series*>> byScene;
-        std::vector<const Config*> configs;
-        for (const Series* series : own) {
-            byScene[series->config.scene].push_back(series);
-            configs.push_back(&series->config);
-        }
-        for (const auto& [scene, all] : byScene) {
-            if (all.size() < 2) continue;
-            const Series* best = *std::min_element(all.begin(), all.end(), [](const Series* a, const Series* b) {
-                return *a->secondsAtEqualError < *b->secondsAtEqualError;
-            });
-            table.rows.push_back({experiment.name, scene, nameOf(best->config, configs, isNamed),
-                                  threeDigits(best->equalError), threeDigits(best->secondsAtEqualError),
-                                  threeDigits(best->gain)});
-        }
-    }
-    if (table.rows.empty()) return {};
-    return {Heading{2, "In short"}, table};
-}
-
 void appendExperiment(Document& document, const Experiment& experiment, const Results& results, const Suite& suite) {
     std::vector<const Row*> rows;
     for (const Row& row : results.rows)
@@ -284,12 +258,16 @@ void writeFile(const std::filesystem::path& path, const std::string& text) {
 
 Document makeReport(const Results& results, const Suite& suite) {
     Document document{Heading{1, results.title}};
+    if (!results.complete) document.push_back(Paragraph{"Interrupted: this is what had been measured by then."});
+    for (Block& block : summaryBlocks(suite, results)) document.push_back(std::move(block));
     Table machine{{"", ""}, {}};
     for (const Fact& fact : results.facts) machine.rows.push_back({fact.name, fact.value});
-    if (!results.complete) document.push_back(Paragraph{"Interrupted: this is what had been measured by then."});
-    if (!machine.rows.empty()) document.push_back(machine);
+    if (!machine.rows.empty()) {
+        document.push_back(Heading{2, "Where it was measured"});
+        document.push_back(machine);
+    }
+    if (!results.notices.empty()) document.push_back(Heading{2, "What is to be known"});
     for (const std::string& notice : results.notices) document.push_back(Paragraph{notice});
-    for (Block& block : winners(suite, results)) document.push_back(std::move(block));
     for (Block& block : defaultsBlocks(results.rows)) document.push_back(std::move(block));
     for (const Experiment& experiment : suite.experiments) appendExperiment(document, experiment, results, suite);
     if (!results.skips.empty()) {

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "Common/Bench/Cells.h"
+
 namespace rt::bench {
 namespace {
 
@@ -27,9 +29,18 @@ std::vector<const Axis*> varied(const Rows& rows, const std::set<std::string_vie
 }
 
 std::string nameOf(const Row& row, const std::vector<const Axis*>& axes) {
+    if (row.config.imported) return row.config.engine;
     std::string name;
     for (const Axis* axis : axes) name += (name.empty() ? "" : ", ") + axis->get(row.config);
     return name.empty() ? row.config.engine : name;
+}
+
+std::string captionOf(const Row& row, const std::vector<const Axis*>& axes) {
+    std::string text = nameOf(row, axes);
+    if (row.spp) text += ", " + whole(row.spp) + " spp";
+    if (row.seconds) text += ", " + threeDigits(row.seconds) + " s";
+    if (row.relmse) text += ", relMSE " + threeDigits(row.relmse);
+    return text;
 }
 
 ChartLine& lineNamed(Chart& chart, const std::string& name) {
@@ -44,7 +55,7 @@ Chart errorChart(const Rows& rows, const std::string& title, FigureOf<Row> x, co
     for (const Row* row : rows)
         if (row->*x && row->relmse)
             lineNamed(chart, nameOf(*row, axes))
-                .points.push_back({*(row->*x), *row->relmse, row->relmseCi.value_or(0)});
+                .points.push_back({*(row->*x), *row->relmse, row->relmseCi.value_or(0), row, captionOf(*row, axes)});
     return chart;
 }
 
@@ -57,8 +68,9 @@ std::vector<std::pair<std::string, Rows>> readable(const Rows& rows, const std::
     for (const std::string_view engine : kEngines) {
         Rows own;
         std::copy_if(rows.begin(), rows.end(), std::back_inserter(own),
-                     [&](const Row* row) { return row->config.engine == engine; });
-        if (!own.empty()) parts.emplace_back(scene + ", " + std::string(engine), std::move(own));
+                     [&](const Row* row) { return row->config.engine == engine || row->config.imported; });
+        if (std::any_of(own.begin(), own.end(), [](const Row* row) { return !row->config.imported; }))
+            parts.emplace_back(scene + ", " + std::string(engine), std::move(own));
     }
     return parts;
 }
@@ -99,7 +111,7 @@ std::vector<Chart> scalingCharts(const Rows& rows) {
                 axis.axes.count("scene") ? row->config.scene.substr(0, row->config.scene.find(':')) + ", " : "";
             if (row->samplesPerSecond)
                 lineNamed(chart, family + nameOf(*row, names))
-                    .points.push_back({axis.value(*row), *row->samplesPerSecond, 0});
+                    .points.push_back({axis.value(*row), *row->samplesPerSecond, 0, row, captionOf(*row, names)});
         }
         for (ChartLine& line : chart.lines)
             std::sort(line.points.begin(), line.points.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
@@ -121,7 +133,7 @@ std::vector<Chart> makeCharts(const Rows& rows) {
         Rows own;
         std::copy_if(rows.begin(), rows.end(), std::back_inserter(own),
                      [&](const Row* row) { return row->config.scene == scene && row->relmse; });
-        for (const auto& [title, part] : readable(own, scene)) {
+        for (const auto& [title, part] : readable(own, sceneName(scene))) {
             charts.push_back(errorChart(part, title, &Row::spp, "samples per pixel"));
             charts.push_back(errorChart(part, title, &Row::seconds, "seconds"));
         }

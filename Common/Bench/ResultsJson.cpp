@@ -27,7 +27,9 @@ bool isWhole(const std::string& text) {
 }
 
 void putConfig(Json& json, const Config& config) {
+    if (config.imported) json["imported"] = true;
     for (const Axis& axis : axes()) {
+        if (!isKnown(axis, config)) continue;
         const std::string value = axis.get(config);
         json[std::string(axis.name)] = isWhole(value) ? Json(std::stoul(value)) : Json(value);
     }
@@ -95,9 +97,14 @@ Figure readFigure(const JsonNode& node) {
 
 Config readConfig(const JsonNode& node) {
     Config config;
+    if (const auto imported = node.find("imported")) config.imported = imported->boolean();
     for (const Axis& axis : axes()) {
         const auto value = node.find(std::string(axis.name).c_str());
-        if (!value) continue; // of an older version
+        if (!value) continue;                           // of an older version
+        if (config.imported && axis.name == "engine") { // any name
+            config.engine = value->string();
+            continue;
+        }
         try {
             axis.set(config, value->value().is_number() ? value->value().dump() : value->string());
         } catch (const UsageError& error) {
@@ -190,7 +197,7 @@ std::string toCsv(const Results& results) {
     text += "\n";
     for (const Row& row : results.rows) {
         text += field(row.experiment);
-        for (const Axis& axis : axes()) text += "," + field(axis.get(row.config));
+        for (const Axis& axis : axes()) text += "," + field(isKnown(axis, row.config) ? axis.get(row.config) : "");
         text += "," + field(row.device) + "," + field(row.kernel) + "," + field(row.lightShapes);
         for (const auto& column : rowColumns()) text += "," + field(row.*column.value);
         text += "\n";

@@ -12,6 +12,7 @@
 
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Bench/Analysis.h"
+#include "Common/Bench/Import.h"
 #include "Common/Bench/Pictures.h"
 #include "Common/Bench/ReferenceRows.h"
 #include "Common/Core/Error.h"
@@ -34,6 +35,7 @@ std::string format(const char* pattern, double value) {
 }
 
 std::string describe(const Experiment& experiment, const Config& config) {
+    if (config.imported) return config.scene + ", " + config.engine;
     std::string text;
     for (const Axis& axis : axes()) {
         const auto varied = std::find_if(experiment.values.begin(), experiment.values.end(), [&](const auto& entry) {
@@ -56,6 +58,7 @@ class SuiteRunner {
 
     Results run() {
         const Interruptible interruptible(stop_); // reading a large scene
+        checkOnePicture(suite_);
         readScenes();
         for (const Experiment& experiment : suite_.experiments) {
             if (stop_) break;
@@ -95,7 +98,7 @@ class SuiteRunner {
         }
     }
 
-    void readScenes() const;
+    void readScenes();
     void runExperiment(const Experiment& experiment);
     std::vector<Group> groupsOf(const Experiment& experiment);
     void runGroup(const Experiment& experiment, Group& group);
@@ -112,7 +115,8 @@ class SuiteRunner {
     const std::atomic<bool>& stop_;
     Results results_;
 
-    std::string sceneSource_; // of scene_
+    std::vector<Measured> imported_; // of the suite's one picture
+    std::string sceneSource_;        // of scene_
     std::shared_ptr<const scene::CompiledScene> scene_;
     double secondsLoad_ = 0;
     std::map<std::pair<std::string, std::string>, Figure> ceilings_; // rays/s by scene and kind of engine
@@ -120,14 +124,25 @@ class SuiteRunner {
     bool referenceSuffices_ = false;
 };
 
-// All of them, before hours pass until the last turns out not to exist.
-void SuiteRunner::readScenes() const {
+std::uint32_t heightOf(const app::RenderSettings& settings, double aspect) {
+    return settings.height != 0 ? settings.height
+                                : std::max(1u, static_cast<std::uint32_t>(std::lround(settings.width / aspect)));
+}
+
+// All of them, and imported pictures, before hours pass until the last turns out not to exist.
+void SuiteRunner::readScenes() {
     std::set<std::string> read;
     for (const Experiment& experiment : suite_.experiments)
         for (const Config& config : combinations(experiment, std::numeric_limits<std::uint32_t>::max())) {
-            if (stop_ || !read.insert(config.scene).second) continue;
+            const bool isNew = read.insert(config.scene).second;
+            const bool isPicture = experiment.error && imported_.empty() && !suite_.imports.empty();
+            if (stop_ || (!isNew && !isPicture)) continue;
             try {
-                app::loadScene(config.scene);
+                const double aspect = app::loadScene(config.scene).render.aspect;
+                if (!isPicture) continue;
+                Config picture = config;
+                picture.settings.height = heightOf(config.settings, aspect);
+                imported_ = readImports(suite_.imports, picture);
             } catch (const Interrupted&) {
                 return;
             } catch (const InputError& error) {
@@ -201,11 +216,8 @@ void SuiteRunner::runExperiment(const Experiment& experiment) {
 void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
     loadScene(group.scene);
     for (Measured& measured : group.measured) {
-        app::RenderSettings& settings = measured.config.settings;
         measured.secondsLoad = secondsLoad_;
-        if (settings.height == 0)
-            settings.height =
-                std::max(1u, static_cast<std::uint32_t>(std::lround(settings.width / scene_->defaults.aspect)));
+        measured.config.settings.height = heightOf(measured.config.settings, scene_->defaults.aspect);
     }
     // Turn by turn, so that a busy machine disturbs all alike.
     for (std::uint32_t repeat = 0; repeat < experiment.repeats; ++repeat)
@@ -216,6 +228,8 @@ void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
     std::erase_if(group.measured, [](const Measured& m) {
         return std::all_of(m.runs.begin(), m.runs.end(), [](const Run& run) { return run.snapshots.empty(); });
     });
+    if (experiment.error && !group.measured.empty()) // of which all are of the one picture
+        group.measured.insert(group.measured.end(), imported_.begin(), imported_.end());
 
     std::vector<std::vector<Row>> rows;
     for (const Measured& measured : group.measured) rows.push_back(makeRows(experiment, measured));
@@ -239,8 +253,8 @@ void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
     for (const Row& row : all)
         if (std::abs(row.biasZ.value_or(0)) > kLargestZ)
             notice(experiment.name + ": " + describe(experiment, row.config) + ": at " +
-                   format("%.0f", row.spp.value_or(0)) + " spp the mean is off by " + format("%.1f", *row.biasZ) +
-                   " standard deviations: biased, or ruled by a few bright samples.");
+                   (row.spp ? format("%.0f spp", *row.spp) : format("%.3g s", *row.seconds)) + " the mean is off by " +
+                   format("%.1f", *row.biasZ) + " standard deviations: biased, or ruled by a few bright samples.");
     for (const SkipRow& skip : compareFeatures(experiment, group.measured)) results_.skips.push_back(skip);
     if (reference != nullptr && experiment.images)
         results_.grids.push_back(makeGrid(experiment, group.measured, *reference));
@@ -310,7 +324,7 @@ const image::Reference* SuiteRunner::provideReference(const Group& group, std::v
     std::vector<const Image*> images;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const Measured& measured = group.measured[i];
-        if (const double own = rows[i].back().samplesPerSecond.value_or(0); own >= rate) {
+        if (const double own = rows[i].back().samplesPerSecond.value_or(0); own >= rate && !measured.config.imported) {
             rate = own;
             fastest = &measured;
         }

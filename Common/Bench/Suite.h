@@ -34,12 +34,20 @@ struct Published {
     std::map<std::uint32_t, double> seconds; // by samples per pixel
 };
 
+// A picture of another program; not part of a suite's file.
+struct Import {
+    std::string name; // of the program, or of how it rendered
+    std::string file; // linear radiance
+    double seconds = 0;
+};
+
 struct Suite {
     std::string name;
     std::string title;
     double referenceSeconds = 60; // most that may be spent on one reference
     std::vector<Experiment> experiments;
     std::vector<Published> published;
+    std::vector<Import> imports; // of the one picture that it measures
 };
 
 // Throws InputError naming the file, the JSON path, the value and what is allowed.

@@ -133,6 +133,7 @@ int measure(const bench::BenchOptions& options) {
     if (!options.engines.empty()) restrictEngines(suite, options.engines);
     if (suite.experiments.empty())
         throw UsageError("--engine: the suite " + options.suite + " has none of these engines");
+    suite.imports = options.imports;
     if (!options.report.empty()) bench::checkReportFolder(options.report);
 
     app::Interrupt interrupt;
