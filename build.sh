@@ -12,6 +12,12 @@ test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang clang-format cl
                vulkan-validationlayers xvfb xdotool libx11-dev assimp-testmodels zsh fish groff-base
                desktop-file-utils appstream shared-mime-info mkdocs)
 bench_packages=(libbenchmark-dev libembree-dev)
+compiler_packages=(g++-mingw-w64-x86-64-posix) # of other systems, and a library of C++ that has ranges
+if grep -qs bookworm /etc/os-release; then
+    compiler_packages+=(clang-16 libc++-16-dev libc++abi-16-dev)
+else
+    compiler_packages+=(clang libc++-dev libc++abi-dev)
+fi
 fuzz_packages=(clang libclang-rt-dev) # which holds libFuzzer and the sanitizers; clang only recommends it
 cluster_packages=(libopenmpi-dev openmpi-bin)
 release_packages=(debootstrap git)
@@ -59,6 +65,7 @@ usage() {
 ./build.sh releases [RELEASE...]
                          as root: ./build.sh run and ./build.sh test on bare systems of each release that is promised
                          (or of some: bookworm, trixie, noble), made in build/releases; hours, for nights
+./build.sh compilers     build, then compile everything with LLVM's library of C++ and, for Windows, with MinGW
 ./build.sh package       packages for this system in build/packages: .deb, and .tar.gz that runs from any folder
 ./build.sh package --test
                          then, as root, try them in a bare system (tests/packages/run.sh): for nights
@@ -232,11 +239,18 @@ case $verb in
         ;;
     test)
         [[ -z ${1:-} || $1 == --all ]] || fail "test $1: must be --all or nothing"
-        install_packages "${build_packages[@]}" "${test_packages[@]}" "${cluster_packages[@]}"
+        install_packages "${build_packages[@]}" "${test_packages[@]}" "${cluster_packages[@]}" \
+            ${1:+"${compiler_packages[@]}"}
         configure -DRT_BUILD_TESTS=ON -DRT_BUILD_BENCH=ON ${VCPKG_ROOT:+-DVCPKG_MANIFEST_FEATURES=tests}
         build
         provide_device || fail "$no_device_reason"
         run_tests "$@"
+        ;;
+    compilers)
+        install_packages "${build_packages[@]}" "${test_packages[@]}" "${compiler_packages[@]}"
+        configure -DRT_BUILD_TESTS=ON
+        build
+        ctest --test-dir build --output-on-failure --tests-regex '^portable\.'
         ;;
     package)
         [[ -z ${1:-} || $1 == --test ]] || fail "package $1: must be --test or nothing"

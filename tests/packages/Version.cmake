@@ -1,4 +1,5 @@
-# One version wherever it stands: in CMakeLists.txt, vcpkg.json, the changelog of users and the data for software centres.
+# One version wherever it stands: in CMakeLists.txt, vcpkg.json, the changelog of users and the data for software
+# centres. Libraries of vcpkg have one, too: the baseline is a commit.
 #   cmake -DROOT=... -P Version.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -18,3 +19,10 @@ set(version ${CMAKE_MATCH_1})
 expect_version(vcpkg.json "\"version\": \"([0-9.]+)\"")
 expect_version(CHANGELOG.md "\n## ([0-9.]+)")
 expect_version(Assets/desktop/org.example.RayTracingTwins.metainfo.xml "<release version=\"([0-9.]+)\"")
+
+file(READ ${ROOT}/vcpkg.json manifest)
+string(JSON baseline GET "${manifest}" builtin-baseline)
+string(LENGTH "${baseline}" digits)
+if(NOT baseline MATCHES "^[0-9a-f]+$" OR NOT digits EQUAL 40)
+    message(SEND_ERROR "vcpkg.json: the baseline '${baseline}' is no commit")
+endif()
