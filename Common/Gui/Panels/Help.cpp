@@ -113,9 +113,9 @@ void drawHelp(Gui& gui) {
 
 void drawFirstSteps(Gui& gui, const Rect& area) {
     if (!gui.showFirstSteps || gui.errors.unread() != nullptr || hasMessage(gui)) return; // they stand there, too
-    constexpr const char* kSteps[] = {"1  Choose a scene at the left, or by the keys 1 to 9",
-                                      "2  Drag in the picture to look at it from elsewhere; N shows it raw",
-                                      "3  Press F3 to compare this run with others"};
+    constexpr const char* kSteps[] = {"1  Press F3 and run the other engine: who is faster?",
+                                      "2  Set Light sampling to Off: what aiming at lamps is worth",
+                                      "3  Press N: the same picture, not denoised"};
     const float em = ImGui::GetFontSize(), padding = ImGui::GetStyle().WindowPadding.x;
     const float margin = std::min(em, 0.05f * area.width), room = std::max(1.0f, area.width - 2 * (margin + padding));
     float longest = 1;
