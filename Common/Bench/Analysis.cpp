@@ -40,11 +40,21 @@ double medianOf(const Measured& measured, std::size_t step, Function get) {
     return image::median(values(measured, step, get));
 }
 
-Figure medianOfKnown(const Measured& measured, std::size_t step, FigureOf<Snapshot> figure) {
+std::vector<double> knownOf(const Measured& measured, std::size_t step, FigureOf<Snapshot> figure) {
     std::vector<double> known;
     for (const Run& run : measured.runs)
         if (step < run.snapshots.size() && run.snapshots[step].*figure) known.push_back(*(run.snapshots[step].*figure));
+    return known;
+}
+
+Figure medianOfKnown(const Measured& measured, std::size_t step, FigureOf<Snapshot> figure) {
+    const std::vector<double> known = knownOf(measured, step, figure);
     return known.empty() ? std::nullopt : Figure(image::median(known));
+}
+
+Figure meanOfKnown(const Measured& measured, std::size_t step, FigureOf<Snapshot> figure) {
+    const std::vector<double> known = knownOf(measured, step, figure);
+    return known.empty() ? std::nullopt : Figure(image::summarise(known).mean);
 }
 
 double pixelsOf(const Config& config) {
@@ -86,23 +96,27 @@ Row makeRow(const Experiment& experiment, const Measured& measured, std::size_t 
     row.seconds = seconds.median;
     row.secondsMin = seconds.min;
     row.secondsMax = seconds.max;
+    const double sampling = median([](const Run&, const Snapshot& s) { return s.seconds - s.secondsDenoise; });
     if (last.threads > 0) {
         row.threadsUsed = last.threads;
         const double processor = median([](const Run&, const Snapshot& s) { return s.processorSeconds; });
-        if (seconds.median >= kMinBusySeconds && processor > 0) row.busy = processor / (seconds.median * last.threads);
+        if (sampling >= kMinBusySeconds && processor > 0) row.busy = processor / (sampling * last.threads);
     }
+    if (measured.config.denoise != Denoise::Off)
+        row.secondsDenoise = median([](const Run&, const Snapshot& s) { return s.secondsDenoise; });
     row.secondsDevice = median([](const Run&, const Snapshot& s) { return s.deviceSeconds; });
     row.secondsLoad = measured.secondsLoad;
     row.secondsBuild = report(&app::EngineReport::accelBuildSeconds);
     row.secondsPipeline = report(&app::EngineReport::pipelineSeconds);
     const double rays = median([](const Run&, const Snapshot& s) { return raysOf(s); });
     const double samples = median([](const Run&, const Snapshot& s) { return static_cast<double>(s.samples); });
-    row.samplesPerSecond = ratio(samples, row.seconds);
-    row.raysPerSecond = ratio(rays, row.seconds);
+    row.samplesPerSecond = ratio(samples, sampling);
+    row.raysPerSecond = ratio(rays, sampling);
     row.raysPerSample = ratio(rays, samples);
     row.nonfinite = report(&app::EngineReport::nonfiniteSamples);
     for (const Run& run : measured.runs)
         if (step < run.snapshots.size()) row.timeBudget = run.snapshots[step].timeBudget;
+    row.estimatedRelmse = meanOfKnown(measured, step, &Snapshot::estimatedRelmse);
     row.joules = medianOfKnown(measured, step, &Snapshot::joules);
     if (row.seconds >= kMinDeviceSeconds) row.joulesGpu = medianOfKnown(measured, step, &Snapshot::joulesGpu);
     return row;
@@ -127,13 +141,16 @@ void addError(Row& row, const std::vector<image::ErrorAnalysis>& all) {
     row.relmse = relmse.mean;
     row.rmse = std::sqrt(std::max(mse.mean, 0.0));
     if (all.size() > 2) row.relmseCi = relmse.halfWidth95;
-    row.efficiency = image::efficiency(*row.mse, *row.seconds);
+    // Filtered errors do not fall with the inverse of time, so that there is no efficiency, and the noise of their
+    // pixels is not independent, so that there is no test of the mean.
+    const bool isRaw = row.config.denoise == Denoise::Off;
+    if (isRaw) row.efficiency = image::efficiency(*row.mse, *row.seconds);
     row.shareUpTo1 = all.front().upTo1.share; // the reference's
     if (*row.shareUpTo1 > 0) {
         const Summary upTo1 = summary([](Error e) { return e.upTo1.mse; });
         row.mseUpTo1 = upTo1.mean;
         row.mseUpTo1Ci = intervalOf(upTo1, summary([](Error e) { return e.upTo1.mseError; }));
-        row.efficiencyUpTo1 = image::efficiency(upTo1.mean, *row.seconds);
+        if (isRaw) row.efficiencyUpTo1 = image::efficiency(upTo1.mean, *row.seconds);
     }
     row.mae = summary([](Error e) { return e.mae; }).mean;
     row.psnr = summary([](Error e) { return e.psnr; }).mean;
@@ -144,7 +161,7 @@ void addError(Row& row, const std::vector<image::ErrorAnalysis>& all) {
     double worst = 0;
     for (const image::ErrorAnalysis& one : all)
         if (std::abs(one.biasZ) > std::abs(worst)) worst = one.biasZ;
-    row.biasZ = worst;
+    if (isRaw) row.biasZ = worst;
 }
 
 // The rows of one configuration with those values for the axes of the baseline.

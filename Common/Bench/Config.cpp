@@ -15,6 +15,7 @@ using namespace rt::app;
 using Text = const std::string&;
 using Says = Axis::Says;
 
+constexpr Named<Denoise> kDenoise[] = {{"off", Denoise::Off}, {"on", Denoise::On}, {"live", Denoise::Live}};
 constexpr Named<bool> kFeatures[] = {{"auto", false}, {"all", true}};
 
 void setEngine(Config& config, Text value) {
@@ -71,6 +72,8 @@ constexpr Axis kAxes[] = {
     method<"sampler", &RenderSettings::sampler, kSamplers>(),
     method<"adaptive", &RenderSettings::adaptive, kAdaptive>(),
     method<"russian_roulette", &RenderSettings::russianRoulette, kOnOff>(),
+    {"denoise", Says::How, [](const Config& c) { return nameOf(kDenoise, c.denoise); },
+     [](Config& c, Text value) { c.denoise = parseChoice("denoise", value, kDenoise); }},
     {"features", Says::How, [](const Config& c) { return nameOf(kFeatures, c.settings.features.has_value()); },
      setFeatures},
 };

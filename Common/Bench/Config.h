@@ -10,12 +10,16 @@
 
 namespace rt::bench {
 
+// What is made of a picture before it is compared: docs/denoising.md has both filters.
+enum class Denoise { Off, On, Live };
+
 struct Config {
     std::string scene = "cornell-box-lights"; // id or file
     std::string engine = "multi";
-    std::uint32_t threads = 0;    // CPU engines: 0 means all; of a rank, where there are several
-    bool imported = false;        // a picture of another program, whose name is `engine`; its method is not known
-    std::uint32_t ranks = 1;      // programs that render together, started by mpirun where there are several
+    std::uint32_t threads = 0; // CPU engines: 0 means all; of a rank, where there are several
+    bool imported = false;     // a picture of another program, whose name is `engine`; its method is not known
+    std::uint32_t ranks = 1;   // programs that render together, started by mpirun where there are several
+    Denoise denoise = Denoise::Off;
     app::RenderSettings settings; // height 0: from the scene's aspect; spp and seed are no part of it
 
     Config() { settings.height = 0; }

@@ -2,17 +2,20 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "Common/App/Platform.h"
 #include "Common/Image/Summary.h"
 #include "Common/Render/FilmRun.h"
+#include "Common/Render/PictureDenoiser.h"
 #include "Common/Render/RenderParams.h"
 
 namespace rt::bench {
 namespace {
 
+constexpr std::uint32_t kHalves = 2;            // that a filter needs
 constexpr double kWarmUpSeconds = 0.25;         // at most
 constexpr std::uint32_t kWarmUpSpp = 16;        // one block
 constexpr double kDeviceWarmUpSeconds = 0.5;    // at least: an idle GPU may wait before it raises its clocks; then
@@ -25,15 +28,17 @@ constexpr std::size_t kMaxPasses = 9;           // so many times at most
 
 // Of one step, from run to run.
 struct Times {
-    std::vector<double> wall, device, processor;
+    std::vector<double> wall, device, processor, denoise;
 
     void add(const Snapshot& snapshot) {
         wall.push_back(snapshot.seconds);
         device.push_back(snapshot.deviceSeconds);
         processor.push_back(snapshot.processorSeconds);
+        denoise.push_back(snapshot.secondsDenoise);
     }
     void putMedians(Snapshot& snapshot) const {
-        snapshot.seconds = image::median(wall);
+        snapshot.secondsDenoise = image::median(denoise);
+        snapshot.seconds = image::median(wall) + snapshot.secondsDenoise;
         snapshot.deviceSeconds = image::median(device);
         snapshot.processorSeconds = image::median(processor);
     }
@@ -42,8 +47,15 @@ struct Times {
 class Measurer {
   public:
     Measurer(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings,
-             const std::atomic<bool>& stop, const EnergyCounter& deviceEnergy)
-        : engine_(engine), scene_(scene), settings_(settings), stop_(stop), deviceEnergy_(deviceEnergy) {}
+             Denoise denoise, const std::atomic<bool>& stop, const EnergyCounter& deviceEnergy)
+        : engine_(engine),
+          scene_(scene),
+          settings_(settings),
+          denoise_(denoise),
+          stop_(stop),
+          deviceEnergy_(deviceEnergy) {
+        if (denoise != Denoise::Off) settings_.replicates = std::max(settings_.replicates, kHalves);
+    }
 
     void warmUp() {
         const bool device = engine_.report().threads == 0;
@@ -57,11 +69,13 @@ class Measurer {
             const std::uint64_t samples = film.status().samplesDone;
             const double seconds = film.seconds();
             film.limit({.seconds = device ? kDeviceSlice : kWarmUpSeconds});
-            if (film.untilStopped(stop_) == app::StopReason::Interrupted || !device) return;
+            if (film.untilStopped(stop_) == app::StopReason::Interrupted) return;
+            if (!device) break;
             const double now = static_cast<double>(film.status().samplesDone - samples) / (film.seconds() - seconds);
-            if (film.seconds() >= kDeviceWarmUpSeconds && now < kStillRising * rate) return;
+            if (film.seconds() >= kDeviceWarmUpSeconds && now < kStillRising * rate) break;
             rate = now;
         }
+        filter();
     }
 
     // What takes a moment is timed several times over, since chance has a large part in the time of one.
@@ -72,12 +86,12 @@ class Measurer {
             times.emplace_back().add(done_);
         });
         run_.report = engine_.report();
-        double spent = done_.seconds;
+        double spent = done_.seconds + filtered_;
         for (std::size_t pass = 1; pass < kMaxPasses && spent < kTimedSeconds && !stop_; ++pass) {
             climb(ladder, [&](std::size_t step) {
                 if (step < times.size()) times[step].add(done_);
             });
-            spent += done_.seconds;
+            spent += done_.seconds + filtered_;
         }
         for (std::size_t step = 0; step < times.size(); ++step) times[step].putMedians(run_.snapshots[step]);
     }
@@ -89,7 +103,9 @@ class Measurer {
         for (const double seconds : ladder.seconds) {
             if (seconds > ladder.maxSeconds) return;
             if (seconds > done_.seconds && !step(seconds - done_.seconds)) return;
+            if (!filter()) continue; // one of the halves lacks samples in some pixel as yet
             take(seconds);
+            run_.snapshots.back().seconds += done_.secondsDenoise;
         }
         run_.report = engine_.report();
     }
@@ -102,6 +118,7 @@ class Measurer {
         const bool anew = settings_.sampler == app::SamplerKind::Stratified || settings_.adaptive;
         const std::uint32_t replicates = settings_.replicates;
         done_ = {};
+        filtered_ = 0;
         for (std::size_t i = 0; i < ladder.spp.size(); ++i) {
             const std::uint32_t spp = ladder.spp[i];
             const double perSample = done_.spp > 0 ? done_.seconds / static_cast<double>(done_.spp) : 0;
@@ -114,6 +131,8 @@ class Measurer {
             film_.emplace(engine_, scene_.camera, settings_, std::move(film));
             if (!step(done_.spp > 0 ? std::nullopt : std::optional(ladder.maxSeconds))) return; // nothing tells as yet
             done_.spp = spp;
+            if (!filter()) return;
+            filtered_ += done_.secondsDenoise;
             reached(i);
         }
     }
@@ -141,22 +160,39 @@ class Measurer {
         return true;
     }
 
+    // False: interrupted, or there are no two halves of the samples in every pixel as yet.
+    bool filter() {
+        if (denoise_ == Denoise::Off) return true;
+        const auto quality = denoise_ == Denoise::On ? app::DenoiseQuality::Final : app::DenoiseQuality::Live;
+        // Made anew, since it keeps the features, whose time counts.
+        auto filtered = engine_.makeDenoiser()->denoise({quality}, stop_);
+        if (!filtered) return false;
+        picture_ = std::move(filtered->images.picture);
+        done_.secondsDenoise = filtered->seconds;
+        done_.estimatedRelmse.reset();
+        if (quality == app::DenoiseQuality::Final) done_.estimatedRelmse = filtered->images.relmse.value;
+        return true;
+    }
+
     void take(std::optional<double> timeBudget) {
         const image::Film& film = engine_.film();
         done_.spp = film.samplesPerPixel();
         done_.samples = film.totalSamples();
         done_.timeBudget = timeBudget;
         run_.snapshots.push_back(done_);
-        run_.snapshots.back().image = film.resolve();
+        run_.snapshots.back().image = denoise_ == Denoise::Off ? film.resolve() : picture_;
     }
 
     app::Engine& engine_;
     const scene::CompiledScene& scene_;
     app::RenderSettings settings_;
+    Denoise denoise_;
     const std::atomic<bool>& stop_;
     const EnergyCounter& deviceEnergy_;
     std::optional<app::FilmRun> film_;
-    Snapshot done_; // so far; without image
+    Snapshot done_;       // so far; without image
+    double filtered_ = 0; // seconds, on all steps of a climb
+    image::Image picture_;
     Run run_;
 };
 
@@ -165,7 +201,7 @@ class Measurer {
 Run measure(app::Engine& engine, const scene::CompiledScene& scene, app::RenderSettings settings, const Ladder& ladder,
             std::uint32_t seed, const std::atomic<bool>& stop, const EnergyCounter& deviceEnergy) {
     settings.seed = seed;
-    Measurer measurer(engine, scene, settings, stop, deviceEnergy);
+    Measurer measurer(engine, scene, settings, ladder.denoise, stop, deviceEnergy);
     measurer.warmUp();
     if (!stop) ladder.seconds.empty() ? measurer.toSamples(ladder) : measurer.toSeconds(ladder);
     return measurer.finish();

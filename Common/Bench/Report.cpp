@@ -7,6 +7,7 @@
 
 #include "Common/Bench/Cells.h"
 #include "Common/Bench/ReportCharts.h"
+#include "Common/Bench/ReportDenoise.h"
 #include "Common/Bench/ReportEfficiency.h"
 #include "Common/Bench/ReportPage.h"
 #include "Common/Bench/ReportSummary.h"
@@ -48,6 +49,7 @@ Table rowTable(const std::vector<const Row*>& rows) {
                 {
                     {"spp", [](const Row& r) { return whole(r.spp); }},
                     {"seconds", seconds},
+                    {"denoising, s", [](const Row& r) { return threeDigits(r.secondsDenoise); }},
                     {"threads busy", [=](const Row& r) { return idle && r.busy ? percent(*r.busy, 0) : kUnknown; }},
                     {"M samples/s", [](const Row& r) { return threeDigits(times(r.samplesPerSecond, 1e-6)); }},
                     {"M rays/s", [](const Row& r) { return threeDigits(times(r.raysPerSecond, 1e-6)); }},
@@ -55,6 +57,7 @@ Table rowTable(const std::vector<const Row*>& rows) {
                     {"mse", [](const Row& r) { return withInterval(r.mse, r.mseCi); }},
                     {"mse up to 1", [=](const Row& r) { return upTo1(withInterval(r.mseUpTo1, r.mseUpTo1Ci)); }},
                     {"relmse", [](const Row& r) { return withInterval(r.relmse, r.relmseCi); }},
+                    {"estimated", [](const Row& r) { return threeDigits(r.estimatedRelmse); }},
                     {"psnr", [](const Row& r) { return threeDigits(r.psnr); }},
                     {"FLIP", [](const Row& r) { return threeDigits(r.flip); }},
                     {"bias z", [](const Row& r) { return threeDigits(r.biasZ); }},
@@ -216,7 +219,8 @@ const Table& columnMeanings() {
         {"column", "what it says"},
         {
             {"seconds",
-             "wall time of sampling alone: median of the repeats, ± half of the distance from least to most"},
+             "wall time of sampling and, where pictures are denoised, of the filter and its features: median of the "
+             "repeats, ± half of the distance from least to most"},
             {"threads busy",
              "processor seconds of this program over seconds × threads: the rest went to other programs, or "
              "there was too little work for so many"},
@@ -260,6 +264,7 @@ Document makeReport(const Results& results, const Suite& suite) {
     Document document{Heading{1, results.title}};
     if (!results.complete) document.push_back(Paragraph{"Interrupted: this is what had been measured by then."});
     for (Block& block : summaryBlocks(suite, results)) document.push_back(std::move(block));
+    for (Block& block : denoiseBlocks(results.rows)) document.push_back(std::move(block));
     Table machine{{"", ""}, {}};
     for (const Fact& fact : results.facts) machine.rows.push_back({fact.name, fact.value});
     if (!machine.rows.empty()) {

@@ -24,10 +24,12 @@ struct Row {
     Figure spp, timeBudget, repeats, threadsUsed;
     Figure seconds, secondsMin, secondsMax;                           // median, least and most over the repeats
     Figure secondsDevice, secondsLoad, secondsBuild, secondsPipeline; // medians
+    Figure secondsDenoise;                                            // of `seconds`: features and filter; median
     Figure busy;                                                      // processor seconds / (seconds threads)
     Figure samplesPerSecond, raysPerSecond, raysPerSample;
     Figure mse, mseCi, rmse, relmse, relmseCi, mae, psnr, flip; // means; Ci: half of the 95 % confidence interval
     Figure mseUpTo1, mseUpTo1Ci, shareUpTo1;                    // of the pixels that the reference has at 1 or less
+    Figure estimatedRelmse;                                     // what the denoiser says of its picture; mean
     Figure referenceShare;                                      // variance of the reference / mse
     Figure biasZ, fireflies, fireflyShare;                      // of the worst repeat; means
     Figure nonfinite;                                           // samples

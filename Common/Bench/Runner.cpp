@@ -246,7 +246,7 @@ void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
         }
     for (const Series& series : makeSeries(experiment, all)) {
         results_.series.push_back(series);
-        if (series.tailSlope.value_or(-1) > kMinFall && referenceSuffices_)
+        if (series.config.denoise == Denoise::Off && series.tailSlope.value_or(-1) > kMinFall && referenceSuffices_)
             notice(experiment.name + ": " + describe(experiment, series.config) +
                    ": the error hardly falls at the end, with slope " + format("%.2f", *series.tailSlope) + ".");
     }
@@ -262,7 +262,7 @@ void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
 }
 
 Ladder SuiteRunner::ladderFor(const Experiment& experiment, const Config& config) {
-    Ladder ladder{experiment.spp, experiment.seconds, experiment.maxSeconds};
+    Ladder ladder{experiment.spp, experiment.seconds, experiment.maxSeconds, config.denoise};
     const auto maximum = experiment.maxSpp.find(config.engine);
     if (maximum != experiment.maxSpp.end())
         std::erase_if(ladder.spp, [&](std::uint32_t spp) { return spp > maximum->second; });

@@ -128,6 +128,11 @@ Experiment readExperiment(const JsonNode& node) {
     readKeys(node, experiment);
     if (const auto ranks = node.find("ranks"); ranks && !experiment.seconds.empty())
         ranks->fail("needs spp: ranks are not stopped after seconds");
+    if (const auto denoise = node.find("denoise")) {
+        if (node.find("ranks")) denoise->fail("not with ranks: pictures are filtered by this program");
+        if (!experiment.spp.empty() && experiment.spp.front() < 2)
+            denoise->fail("needs two halves of the samples: spp of 2 or more");
+    }
     return experiment;
 }
 

@@ -42,16 +42,16 @@ int diff(const Arguments& arguments) {
     const image::Image a = image::readImage(arguments.a), b = image::readImage(arguments.b);
     image::checkFinite(a, arguments.a);
     image::checkFinite(b, arguments.b);
-    const image::ErrorFigures figures = image::compare(a, b);
+    const tools::Difference difference{a, b, image::compare(a, b)};
     for (const Metric& metric : kMetrics)
         if (arguments.metric.empty() || arguments.metric == metric.name)
-            std::cout << metric.name << ' ' << figures.*metric.value << '\n';
-    if (arguments.metric.empty()) std::cout << "max " << figures.maxAbs << '\n';
+            std::cout << metric.name << ' ' << metric.of(difference) << '\n';
+    if (arguments.metric.empty()) std::cout << "max " << difference.figures.maxAbs << '\n';
     if (!arguments.output.empty()) image::writeImage(arguments.output, image::heatMap(a, b));
 
     if (!arguments.max) return static_cast<int>(ExitCode::Done);
     const Metric& metric = arguments.metric.empty() ? kMetrics[0] : rowOf(kMetrics, arguments.metric);
-    const double value = figures.*metric.value;
+    const double value = metric.of(difference);
     const bool within = metric.moreIsBetter ? value >= *arguments.max : value <= *arguments.max;
     return static_cast<int>(within ? ExitCode::Done : ExitCode::Different);
 }

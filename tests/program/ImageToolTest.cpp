@@ -53,6 +53,8 @@ TEST_F(ImageTool, DiffPrintsAllFigures) {
     for (int i = 0; i < 16 * 9 * 3; ++i) relative += 0.0625 / (std::pow(i % 10 / 16.0, 2) + 0.01) / (16 * 9 * 3);
     EXPECT_NEAR(figure(result.out, "relmse"), relative, 1e-4);
     EXPECT_TRUE(figure(result.out, "psnr") > 10 && figure(result.out, "psnr") < 20);
+    EXPECT_TRUE(figure(result.out, "flip") > 0.1 && figure(result.out, "flip") < 0.9);
+    EXPECT_EQ(figure(tool({"diff", "reference.exr", "reference.exr"}).out, "flip"), 0);
 }
 
 TEST_F(ImageTool, DiffComparesWithTheLimit) {
@@ -65,6 +67,8 @@ TEST_F(ImageTool, DiffComparesWithTheLimit) {
     EXPECT_EQ(code("mae", "0.26"), 0);
     EXPECT_EQ(code("relmse", "1e9"), 0);
     EXPECT_EQ(code("relmse", "0"), 5);
+    EXPECT_EQ(code("flip", "1"), 0);
+    EXPECT_EQ(code("flip", "0.1"), 5);
     EXPECT_EQ(code("psnr", "5"), 0); // at least 5 dB
     EXPECT_EQ(code("psnr", "50"), 5);
     EXPECT_EQ(tool({"diff", "brighter.pfm", "reference.exr", "--max", "0.0624"}).exitCode, 5);

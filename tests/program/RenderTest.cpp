@@ -171,7 +171,7 @@ TEST_F(Render, ReferenceAddsErrorFigures) {
     const auto error = jsonOf("s.json")["error"];
     EXPECT_GT(error["mse"], 0.0);
     EXPECT_NEAR(error["rmse"].get<double>() * error["rmse"].get<double>(), error["mse"].get<double>(), 1e-9);
-    for (const char* key : {"relmse", "mae", "psnr"}) EXPECT_GT(error[key], 0.0) << key;
+    for (const char* key : {"relmse", "mae", "psnr", "flip"}) EXPECT_GT(error[key], 0.0) << key;
 }
 
 TEST_F(Render, TimeLimit) {

@@ -12,6 +12,7 @@
 #include "Common/Bench/Pictures.h"
 #include "Common/Bench/Report.h"
 #include "Common/Bench/ReportCharts.h"
+#include "Common/Bench/ReportDenoise.h"
 #include "Common/Bench/ReportPage.h"
 #include "Common/Bench/ResultsJson.h"
 #include "Common/Core/Error.h"
@@ -248,6 +249,45 @@ TEST(BenchReport, SettingsStandSideBySide) {
     for (Row& row : results.rows) row.shareUpTo1 = 1; // one error, not two
     EXPECT_EQ(toMarkdown(makeReport(results, suite), [](std::size_t) { return ""; }).find("mse up to 1"),
               std::string::npos);
+}
+
+// Raw, the error is 1 / s; filtered, which takes a second, it is 0.04 / sqrt(s).
+TEST(BenchReport, ThePictureOfRawAndDenoisedComesFirst) {
+    Results results;
+    for (const auto denoise : {Denoise::Off, Denoise::On})
+        for (const double spp : {2.0, 8.0, 32.0}) {
+            Row row = rowWith("a", kUsual, spp, 0.1, 0.1);
+            row.config.denoise = denoise;
+            row.relmse = denoise == Denoise::Off ? 1 / spp : 0.04 / std::sqrt(spp);
+            row.seconds = denoise == Denoise::Off ? spp : 1 + spp;
+            row.flip = denoise == Denoise::Off ? 0.2 : 0.3;
+            if (denoise == Denoise::On) row.estimatedRelmse = 2 * *row.relmse;
+            results.rows.push_back(row);
+        }
+    const Suite suite = parseSuite(R"({"version": 1, "experiments": [{"name": "e", "spp": 4}]})", "s");
+    const Document document = makeReport(results, suite);
+    const auto first = std::find_if(document.begin(), document.end(),
+                                    [](const Block& block) { return std::holds_alternative<Chart>(block); });
+    ASSERT_NE(first, document.end());
+    const Chart& chart = std::get<Chart>(*first);
+    EXPECT_EQ(chart.title, "a: relMSE against time, raw and denoised");
+    ASSERT_EQ(chart.lines.size(), 2u);
+    EXPECT_EQ(chart.lines[0].name, "raw");
+    EXPECT_EQ(chart.lines[1].name, "denoised");
+    EXPECT_DOUBLE_EQ(chart.lines[1].points[0].x, 3);
+    std::vector<Table> tables;
+    for (auto block = first; block != document.end() && tables.size() < 3; ++block)
+        if (std::holds_alternative<Table>(*block)) tables.push_back(std::get<Table>(*block));
+    ASSERT_EQ(tables.size(), 3u);
+    // The filtered picture has 0.0283 at its first step, after 3 s, and less than 1/32 as early as 0.0283 / (1/32) of
+    // that. The raw one comes to 0.04 / sqrt(32) after the inverse of it: in 141 s.
+    EXPECT_EQ(tables[0].rows.at(0), (std::vector<std::string>{"a", "on", "0.0312", "32", "~2.72", "0.0849", "0.00707",
+                                                              "33", "~141", "4.29"}));
+    EXPECT_EQ(tables[1].rows.at(1), (std::vector<std::string>{"on", "8", "1", "8.84", "8.84", "1", "2", "2", "2"}));
+    EXPECT_EQ(tables[2].rows.at(1),
+              (std::vector<std::string>{"a", "on", "8", "0.125", "0.0141", "8.84", "0.2", "0.3", "2"}));
+    results.rows.resize(3); // raw alone
+    EXPECT_TRUE(denoiseBlocks(results.rows).empty());
 }
 
 TEST(BenchReport, ATableWithoutTitlesHasNoRowOfThem) {

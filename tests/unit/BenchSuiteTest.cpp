@@ -36,8 +36,8 @@ TEST(BenchSuite, NamedOnesAreValidAndUseScenesAndAxesThatExist) {
             EXPECT_GT(combinations(experiment, 8).size(), 0u) << named.name << " " << experiment.name;
         names.insert(named.name);
     }
-    EXPECT_EQ(names, (std::set<std::string>{"defaults", "full", "lights", "peers", "predecessor", "quick", "samplers",
-                                            "scaling"}));
+    EXPECT_EQ(names, (std::set<std::string>{"defaults", "denoise", "full", "lights", "peers", "predecessor", "quick",
+                                            "samplers", "scaling"}));
 }
 
 TEST(BenchSuite, ThePublishedSchemaAgrees) {
@@ -119,6 +119,9 @@ TEST(BenchSuite, ErrorsNameFilePlaceAndWhatIsAllowed) {
     expect(suiteWith(R"("scene": "furnace")"), "/experiments/0", "spp or seconds");
     expect(suiteWith(R"("spp": 1, "seconds": 1)"), "/experiments/0", "spp or seconds");
     expect(suiteWith(R"("seconds": 1, "ranks": [1, 2])"), "/experiments/0/ranks", "spp");
+    expect(suiteWith(R"("spp": [1, 4], "denoise": "on")"), "/experiments/0/denoise", "2 or more");
+    expect(suiteWith(R"("spp": 4, "denoise": ["off", "much"])"), "/experiments/0/denoise/1", "live");
+    expect(suiteWith(R"("spp": 4, "denoise": "on", "ranks": 2)"), "/experiments/0/denoise", "ranks");
     expect(suiteWith(R"("spp": 1, "sampler": ["sobol", "halton"])"), "/experiments/0/sampler/1", "stratified");
     expect(suiteWith(R"("spp": 1, "engine": [])"), "/experiments/0/engine", "empty");
     expect(suiteWith(R"("spp": 1, "smapler": "sobol")"), "/experiments/0/smapler", "sampler");

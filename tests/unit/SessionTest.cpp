@@ -156,6 +156,7 @@ TEST_F(SessionTest, ReferenceAddsErrorFigures) {
     run({"--spp", "8", "-o", path("reference.exr")});
     run({"--spp", "8", "--reference", path("reference.exr"), "--stats", path("stats.json")});
     EXPECT_EQ(statistics()["error"]["mse"], 0.0);
+    EXPECT_EQ(statistics()["error"]["flip"], 0.0);
     EXPECT_TRUE(statistics()["error"]["psnr"].is_null()); // infinite
     run({"--spp", "8", "--seed", "1", "--reference", path("reference.exr"), "--stats", path("stats.json")});
     EXPECT_NEAR(statistics()["error"]["mse"].get<double>(), 2.0 / 12 / 8, 0.2 / 12 / 8);

@@ -28,6 +28,8 @@
 #include "Common/Core/NewFile.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Image/Flip.h"
+#include "Common/Image/Metrics.h"
 #include "Common/Render/FilmRun.h"
 #include "Common/Render/Stopwatch.h"
 #include "Common/Scene/Json/SceneJson.h"
@@ -104,6 +106,7 @@ class HeadlessRender {
     void load();
     void beginFilm();
     void sample();
+    void compareWithReference();
     void write();
     void save(const std::string& file) const;
     std::string rescue() const;
@@ -168,9 +171,14 @@ void HeadlessRender::sample() {
     }
     statistics_.stoppedBy = *reason;
     if (reference_)
-        attempt(failures_, options_.reference + ": cannot be compared with",
-                [this] { statistics_.error = image::compare(engine_->film().resolve(), *reference_); });
+        attempt(failures_, options_.reference + ": cannot be compared with", [this] { compareWithReference(); });
     progress.finish(run_->progress(), describeEnd(statistics_));
+}
+
+void HeadlessRender::compareWithReference() {
+    const image::Image picture = engine_->film().resolve();
+    statistics_.error = image::compare(picture, *reference_);
+    statistics_.flip = image::flip(picture, *reference_);
 }
 
 // The checkpoint first, as all else can be made again from it. Whatever can be written is; then the first failure

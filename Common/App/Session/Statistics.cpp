@@ -146,6 +146,7 @@ std::string Statistics::toJson(const Options& options, const scene::CompiledScen
     }
     if (denoised) json["denoised"] = denoisedJson(*denoised);
     if (error) json["error"] = errorJson(*error);
+    if (flip) json["error"]["flip"] = *flip;
     json["memory"] = {{"peak_rss_bytes", peakResidentBytes()}, {"device_bytes", report.deviceBytes}};
     json["outputs"] = outputs;
     if (!report.rates.empty()) json["engine_choice"] = choiceJson(report);

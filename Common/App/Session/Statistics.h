@@ -34,6 +34,7 @@ struct Statistics {
     Seconds seconds;
     std::uint64_t samplesRestored = 0;        // over all pixels, from a checkpoint
     std::optional<image::ErrorFigures> error; // against the reference
+    std::optional<double> flip;               // the same
     std::optional<DenoiseFigures> denoised;   // none unless the outputs were denoised
     std::vector<std::string> outputs;         // files written
     std::optional<WindowFigures> window;      // none without one

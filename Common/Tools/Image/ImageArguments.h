@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "Common/Image/Flip.h"
 #include "Common/Image/Metrics.h"
 #include "Common/Manual/Page.h"
 
@@ -12,20 +13,27 @@ namespace rt::tools {
 
 inline constexpr const char* kImageTool = "ray-tracing-image";
 
-using FigureOfError = double image::ErrorFigures::*;
+// Two images of one size, and how far they are apart.
+struct Difference {
+    const image::Image& image;
+    const image::Image& reference;
+    image::ErrorFigures figures;
+};
 
 struct Metric {
     const char* name;
-    FigureOfError value;
+    double (*of)(const Difference&);
     bool moreIsBetter;
 };
 
 // The first is the default of --max.
-inline constexpr Metric kMetrics[] = {{"mse", &image::ErrorFigures::mse, false},
-                                      {"rmse", &image::ErrorFigures::rmse, false},
-                                      {"relmse", &image::ErrorFigures::relmse, false},
-                                      {"mae", &image::ErrorFigures::mae, false},
-                                      {"psnr", &image::ErrorFigures::psnr, true}};
+inline constexpr Metric kMetrics[] = {
+    {"mse", [](const Difference& d) { return d.figures.mse; }, false},
+    {"rmse", [](const Difference& d) { return d.figures.rmse; }, false},
+    {"relmse", [](const Difference& d) { return d.figures.relmse; }, false},
+    {"mae", [](const Difference& d) { return d.figures.mae; }, false},
+    {"psnr", [](const Difference& d) { return d.figures.psnr; }, true},
+    {"flip", [](const Difference& d) { return image::flip(d.image, d.reference); }, false}};
 
 struct ImageArguments {
     std::string command; // "diff", "info", "convert", "merge" or "denoise"
