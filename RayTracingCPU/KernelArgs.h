@@ -64,7 +64,7 @@ struct SurfacePlanes {
     bool isWanted() const { return albedo != nullptr || normal != nullptr || depth != nullptr; }
 };
 
-// Features of one row, averaged over samples 0 .. count - 1: see Common/Shared/Path/SeenSurfaces.h.
+// Features of one row, averaged over samples 0 .. count - 1 of their own: see Common/Shared/Path/SeenSurfaces.h.
 struct AovTask {
     std::uint32_t y = 0;
     std::uint32_t count = 0;

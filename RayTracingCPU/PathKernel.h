@@ -66,7 +66,7 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
     const bool looksThrough = task.wide.isWanted() || task.emission != nullptr;
     for (std::uint32_t x = 0; x < context.params.width; ++x) {
         SeenSurfaces seen = nothingSeen();
-        Sampler smp = makeSampler(context.params, task.y * context.params.width + x, 0u, 0u);
+        Sampler smp = makeSampler(context.params, task.y * context.params.width + x, kFeatureReplicate, 0u);
         for (; smp.index < task.count; ++smp.index) {
             const uvec2 pixel(x, task.y);
             PathState path =

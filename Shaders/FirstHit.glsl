@@ -1,4 +1,4 @@
-// Features of the surfaces that a pixel sees, averaged over its first samples. The includer provides traceRay().
+// Features of the surfaces that a pixel sees, averaged over samples of their own. The includer provides traceRay().
 #include "PixelPass.glsl"
 #include "TraceStep.glsl"
 #include "Common/Shared/Path/SeenSurfaces.h"
@@ -19,7 +19,7 @@ void writeFeatures(uint invocation) {
     scene.unused = 0u;
     RenderParams params = renderParams();
     PixelSamples samples;
-    if (!beginPixel(invocation, params, samples)) return;
+    if (!beginPixel(invocation, kFeatureReplicate, params, samples)) return;
     bool looksThrough = launch.looksThrough != 0u;
     SeenSurfaces seen = nothingSeen();
     for (; samples.smp.index < launch.samples; samples.smp.index++) {

@@ -10,10 +10,10 @@ struct PixelSamples {
     Sampler smp; // of the next sample
 };
 
-// False: there is no pixel for this invocation.
-bool beginPixel(uint invocation, RenderParams params, out PixelSamples samples) {
+// False: there is no pixel for this invocation. `replicate`: whose samples these are.
+bool beginPixel(uint invocation, uint replicate, RenderParams params, out PixelSamples samples) {
     uint index = launch.firstPixel + invocation;
     samples.pixel = uvec2(index % params.width, index / params.width);
-    samples.smp = makeSampler(params, index, 0u, 0u);
+    samples.smp = makeSampler(params, index, replicate, 0u);
     return invocation < launch.pixels;
 }

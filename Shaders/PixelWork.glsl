@@ -23,7 +23,7 @@ struct Work {
 bool resumePath(uint invocation, RenderParams params, inout Work work, inout PathState path, inout DirectLight direct,
                 inout TechniqueStep step, inout bool goesOn) {
     PixelSamples samples;
-    bool isPixel = beginPixel(invocation, params, samples);
+    bool isPixel = beginPixel(invocation, 0u, params, samples);
     work.pixel = samples.pixel;
     work.next = samples.smp;
     if (!isPixel) work.next.index = launch.samples;

@@ -297,6 +297,7 @@ TEST_P(GpuEngineTest, DepthIsThatOfWhatIsHit) {
     const auto engine = gpu::makeGpuEngine(device(), testedEngine());
     expectDepthOfWhatIsHit(*engine);
     expectSurfacesInMirrors(*engine);
+    expectFeaturesOfTheirOwnSamples(*engine);
     EXPECT_EQ(device().validationMessages(), 0u);
 }
 

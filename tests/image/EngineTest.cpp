@@ -124,6 +124,10 @@ TEST(CpuEngine, MirrorsShowTheSurfacesInThem) {
     expectSurfacesInMirrors(*cpu::makeCpuEngine({}));
 }
 
+TEST(CpuEngine, FeaturesKnowNothingOfThePicturesNoise) {
+    expectFeaturesOfTheirOwnSamples(*cpu::makeCpuEngine({}));
+}
+
 // Lengths in binary floating point scale exactly by powers of two: any absolute tolerance would show.
 TEST(CpuEngine, ScalingByAPowerOfTwoIsExact) {
     const scene::SceneDesc desc = scene::findBuiltinScene("cornell-box-lights");

@@ -222,4 +222,40 @@ void expectSurfacesInMirrors(app::Engine& engine) {
         }
 }
 
+// The square's edges are parallel to the image's, so that what it covers of a pixel is a product of two lengths.
+void expectFeaturesOfTheirOwnSamples(app::Engine& engine) {
+    constexpr std::uint32_t kSide = 64, kSpp = 16;
+    constexpr double kHalf = 0.2507; // at distance 1
+    constexpr float kAlbedo = 0.5f, kEmission = 3;
+    SceneDesc desc = emptyScene({0, 0, 0}, {0, 0, -1}, 60);
+    desc.materials["lamp"] = lambertian(kAlbedo, kEmission);
+    desc.objects.push_back({scene::QuadDesc{{-kHalf, -kHalf, -1}, {2 * kHalf, 0, 0}, {0, 2 * kHalf, 0}, "lamp"}});
+    const auto compiled = scene::compileScene(desc);
+    engine.setScene(compiled, nullptr);
+    app::RenderSettings settings = smallSettings(kSide, kSpp);
+    settings.replicates = 1;
+    settings.edgeRays = false;
+    const image::Image picture = renderImage(engine, *compiled, settings);
+    const image::Image albedo = engine.renderAovs({{true, false, false}}, kSpp).albedo;
+
+    const double pixel = 2 * std::tan(std::numbers::pi / 6) / kSide;
+    const auto covered = [&](std::uint32_t i) {
+        const double low = (i - 0.5 * kSide) * pixel;
+        return std::max(0.0, std::min(low + pixel, kHalf) - std::max(low, -kHalf)) / pixel;
+    };
+    double products = 0, squaresA = 0, squaresB = 0;
+    std::uint32_t cut = 0;
+    for (std::uint32_t y = 0; y < kSide; ++y)
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            const double share = covered(x) * covered(y);
+            const double a = picture.pixel(x, y)[0] / kEmission - share, b = albedo.pixel(x, y)[0] / kAlbedo - share;
+            products += a * b;
+            squaresA += a * a;
+            squaresB += b * b;
+            cut += share > 0 && share < 1;
+        }
+    EXPECT_GT(squaresA * squaresB, 0);
+    EXPECT_LT(std::abs(products), 4 * std::sqrt(squaresA * squaresB / cut)); // four standard deviations
+}
+
 } // namespace rt::test

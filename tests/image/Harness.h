@@ -55,6 +55,9 @@ void expectDepthOfWhatIsHit(app::Engine& engine);
 // Asserts that a mirror shows the albedo, normal, distance and emission of what is in it, times its own colour.
 void expectSurfacesInMirrors(app::Engine& engine);
 
+// Asserts that the noise of features is not that of the picture: of how much of a pixel a bright square covers.
+void expectFeaturesOfTheirOwnSamples(app::Engine& engine);
+
 // Asserts that every sample is finite.
 image::Image renderImage(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings);
 

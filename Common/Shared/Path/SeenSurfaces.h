@@ -8,6 +8,10 @@
 
 RT_SHARED_BEGIN
 
+// Samples of features are a scrambling of their own, which no replicate of a film has: what the denoiser fits radiance
+// by must not know its noise.
+const uint kFeatureReplicate = 0xffffffffu;
+
 const uint kMaxSeenDepth = 16u; // vertices of a path that looks through mirrors and glass
 
 // Sums over samples of a pixel.
