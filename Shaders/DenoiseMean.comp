@@ -8,11 +8,12 @@
 layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
 
 void main() {
-    const int kReach = kDenoiseErrorReach;
+    bool ofVariance = launch.use == kMeansToGuides || launch.use == kMeansToTones;
+    int reach = ofVariance ? kDenoiseVarianceReach : kDenoiseErrorReach;
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (!isInside(pixel)) return;
-    ivec2 first = max(pixel - kReach, ivec2(0));
-    ivec2 last = min(pixel + kReach, ivec2(launch.width, launch.height) - 1);
+    ivec2 first = max(pixel - reach, ivec2(0));
+    ivec2 last = min(pixel + reach, ivec2(launch.width, launch.height) - 1);
     vec4 sum = vec4(0.0f);
     for (int y = first.y; y <= last.y; y++)
         for (int x = first.x; x <= last.x; x++) sum += launch.values.at[pixelIndex(ivec2(x, y))];

@@ -12,7 +12,7 @@ RT_SHARED_BEGIN
 const int kDenoiseReach = 8;         // pixels from the one that is filtered, in either direction
 const int kDenoisePatchReach = 3;    // of the larger patch, 7x7
 const int kDenoiseVarianceReach = 3; // over so many pixels around it a pixel's variance is averaged
-const int kDenoiseErrorReach = 3;    // the same for the error by which a bandwidth is chosen
+const int kDenoiseErrorReach = 2;    // the same for the error by which a bandwidth is chosen
 const float kDenoiseMaxRadiance = 1.0e15f;
 
 // One of the filters among which each pixel chooses.
