@@ -79,8 +79,9 @@ void lowerThreadPriority() {
 }
 
 SharedLibrary::SharedLibrary(std::initializer_list<const char*> names) {
+    constexpr DWORD kSearched = LOAD_LIBRARY_SEARCH_SYSTEM32 | LOAD_LIBRARY_SEARCH_APPLICATION_DIR;
     for (const char* name : names)
-        if (handle_ == nullptr) handle_ = LoadLibraryExA(name, nullptr, LOAD_LIBRARY_SEARCH_SYSTEM32);
+        if (handle_ == nullptr) handle_ = LoadLibraryExA(name, nullptr, kSearched);
 }
 
 SharedLibrary::~SharedLibrary() {

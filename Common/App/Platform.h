@@ -23,7 +23,8 @@ double processorSeconds();      // that all threads of this process have run
 // The calling thread, and where the platform lets them inherit it the threads that it starts, give way to others.
 void lowerThreadPriority();
 
-// A library that is not linked and may be missing; loaded from the system's places while this exists.
+// A library that is not linked and may be missing; loaded from the system's places, in
+// Windows also from the program's folder, while this exists.
 class SharedLibrary {
   public:
     explicit SharedLibrary(std::initializer_list<const char*> names); // the first of these that is there

@@ -15,7 +15,8 @@ using namespace rt::app;
 using Text = const std::string&;
 using Says = Axis::Says;
 
-constexpr Named<Denoise> kDenoise[] = {{"off", Denoise::Off}, {"on", Denoise::On}, {"live", Denoise::Live}};
+constexpr Named<Denoise> kDenoise[] = {
+    {"off", Denoise::Off}, {"on", Denoise::On}, {"live", Denoise::Live}, {"oidn", Denoise::Oidn}};
 constexpr Named<bool> kFeatures[] = {{"auto", false}, {"all", true}};
 
 void setEngine(Config& config, Text value) {

@@ -10,8 +10,8 @@
 
 namespace rt::bench {
 
-// What is made of a picture before it is compared: docs/denoising.md has both filters.
-enum class Denoise { Off, On, Live };
+// What is made of a picture before it is compared: docs/denoising.md has the filters. Oidn: the user's library.
+enum class Denoise { Off, On, Live, Oidn };
 
 struct Config {
     std::string scene = "cornell-box-lights"; // id or file

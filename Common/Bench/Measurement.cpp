@@ -7,10 +7,12 @@
 #include <utility>
 
 #include "Common/App/Platform.h"
+#include "Common/App/Session/OpenImageDenoise.h"
 #include "Common/Image/Summary.h"
 #include "Common/Render/FilmRun.h"
 #include "Common/Render/PictureDenoiser.h"
 #include "Common/Render/RenderParams.h"
+#include "Common/Render/Stopwatch.h"
 
 namespace rt::bench {
 namespace {
@@ -163,6 +165,7 @@ class Measurer {
     // False: interrupted, or there are no two halves of the samples in every pixel as yet.
     bool filter() {
         if (denoise_ == Denoise::Off) return true;
+        if (denoise_ == Denoise::Oidn) return filterByLibrary();
         const auto quality = denoise_ == Denoise::On ? app::DenoiseQuality::Final : app::DenoiseQuality::Live;
         // Made anew, since it keeps the features, whose time counts.
         auto filtered = engine_.makeDenoiser()->denoise({quality}, stop_);
@@ -172,6 +175,17 @@ class Measurer {
         done_.estimatedRelmse.reset();
         if (quality == app::DenoiseQuality::Final) done_.estimatedRelmse = filtered->images.relmse.value;
         return true;
+    }
+
+    bool filterByLibrary() {
+        const image::Film& film = engine_.film();
+        if (film.minSamples() == 0) return false;
+        const app::Stopwatch watch;
+        app::AovImages features = engine_.renderAovs({{true, true, false}}, app::kAovSamples);
+        picture_ =
+            app::OpenImageDenoise().filter(film.resolve(), std::move(features.albedo), std::move(features.normal));
+        done_.secondsDenoise = watch.seconds();
+        return !stop_;
     }
 
     void take(std::optional<double> timeBudget) {

@@ -10,6 +10,7 @@
 #include <thread>
 #include <tuple>
 
+#include "Common/App/Session/OpenImageDenoise.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Bench/Analysis.h"
 #include "Common/Bench/Import.h"
@@ -100,6 +101,7 @@ class SuiteRunner {
 
     void readScenes();
     void runExperiment(const Experiment& experiment);
+    bool hasLibrary();
     std::vector<Group> groupsOf(const Experiment& experiment);
     void runGroup(const Experiment& experiment, Group& group);
     void measureDeviceRate(Config config);
@@ -165,6 +167,17 @@ void SuiteRunner::loadScene(const std::string& source) {
     if (hooks_.rayCeiling && !stop_ && !ceilings_.count(key)) ceilings_[key] = hooks_.rayCeiling(*scene_);
 }
 
+// Says which one, or why there is none.
+bool SuiteRunner::hasLibrary() {
+    try {
+        notice("Rows of oidn are filtered by " + app::OpenImageDenoise().name() + ".");
+        return true;
+    } catch (const RenderError& error) {
+        notice("Rows of oidn are left out: " + std::string(error.what()) + ".");
+        return false;
+    }
+}
+
 std::vector<SuiteRunner::Group> SuiteRunner::groupsOf(const Experiment& experiment) {
     std::vector<Group> groups;
     const auto imageOf = [](const Config& c) {
@@ -176,6 +189,7 @@ std::vector<SuiteRunner::Group> SuiteRunner::groupsOf(const Experiment& experime
             notice("Engine " + config.engine + " is left out: " + why + ".");
             continue;
         }
+        if (config.denoise == Denoise::Oidn && !hasLibrary()) continue;
         if (config.ranks > 1 && hooks_.launcher.mpirun.empty()) {
             notice("Rows of several ranks are left out: " + hooks_.launcher.missing + ".");
             continue;

@@ -127,14 +127,16 @@ void addEstimator(FlagSet& flags, RenderSettings& settings) {
 
 void addDenoise(FlagSet& flags, ParsedFlags& parsed) {
     flags
-        .add("--denoise", "on|off|only",
-             "also write a picture with less noise, as NAME.denoised.EXT; only: in place of the raw one; "
-             "implies an even number of --replicates",
+        .add("--denoise", "on|off|only|oidn",
+             "also write a picture with less noise, as NAME.denoised.EXT; only: in place of the raw one; oidn: by Open "
+             "Image Denoise 2, where it is installed, to compare; implies an even number of --replicates",
              [&parsed](const std::string& flag, const std::string& text) {
                  const bool isOn = text == kNoValue || text == "on" || text == "true";
                  const bool isOff = text == "off" || text == "false"; // true, false: as files say it of switches
-                 if (!isOn && !isOff && text != "only") refuseValue(flag, text, "nothing, on, off or only");
-                 parsed.denoise = isOn;
+                 if (!isOn && !isOff && text != "only" && text != "oidn")
+                     refuseValue(flag, text, "nothing, on, off, only or oidn");
+                 parsed.denoise = isOn || text == "oidn";
+                 parsed.options.denoisesByOidn = text == "oidn";
                  parsed.options.denoisedOnly = text == "only";
              })
         ->expected(0, 1);
@@ -257,7 +259,8 @@ void settleDenoise(const FlagSet& flags, ParsedFlags& parsed) {
     Options& options = parsed.options;
     const bool canDenoise = !options.window && !options.tiles && !options.outputs.empty() && options.settings.spp >= 2;
     // What a configuration file says of all renders holds for those that can.
-    if (flags.isFromFile("--denoise") && !canDenoise) parsed.denoise = options.denoisedOnly = false;
+    if (flags.isFromFile("--denoise") && !canDenoise)
+        parsed.denoise = options.denoisedOnly = options.denoisesByOidn = false;
     if (parsed.denoise && !options.wants(Aov::Denoised)) options.aovs.push_back(Aov::Denoised);
     if (options.denoisedOnly && options.wants(Aov::Denoised))
         throw UsageError("--denoise only: is the output itself; not with --aov denoised");
@@ -266,6 +269,10 @@ void settleDenoise(const FlagSet& flags, ParsedFlags& parsed) {
     if (options.tiles)
         throw UsageError("--denoise: not with --tiles; ray-tracing-image denoise takes the checkpoint that they make");
     if (options.outputs.empty()) throw UsageError("--denoise: needs --output");
+    if (!options.denoisesByOidn) return;
+    if (options.targetError) throw UsageError("--denoise oidn: not with --target-error: it does not tell its error");
+    if (options.wants(Aov::DenoisedError))
+        throw UsageError("--denoise oidn: not with --aov denoised-error: it does not tell its error");
 }
 
 // Replicates and second moments that somebody reads; whether the number of samples is known in advance.

@@ -56,7 +56,8 @@ struct Options {
     float exposure = 0; // stops
     Tonemap tonemap = Tonemap::None;
     std::vector<Aov> aovs;
-    bool denoisedOnly = false; // outputs are denoised; otherwise Aov::Denoised lies beside them
+    bool denoisedOnly = false;   // outputs are denoised; otherwise Aov::Denoised lies beside them
+    bool denoisesByOidn = false; // by the library of OpenImageDenoise.h
     std::string reference;
     std::string stats; // "-": standard output
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "Common/App/Session/OpenImageDenoise.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Image/Denoise/FilmHalves.h"
@@ -28,12 +29,34 @@ image::Image placed(const image::Image& part, const Region& region, std::uint32_
 
 } // namespace
 
+// Also where the render itself has fewer samples: they cost little, and noise in features is noise in the picture.
+void FilmDenoiser::renderFeatures() {
+    if (!features_) features_ = engine_.renderAovs({{true, true, true}}, kAovSamples);
+}
+
+image::Denoised FilmDenoiser::denoiseByLibrary(const image::Film& film) {
+    const Stopwatch watch;
+    renderFeatures();
+    image::Image radiance = film.resolve(), albedo = features_->albedo, normal = features_->normal;
+    if (options_.region)
+        for (image::Image* image : {&radiance, &albedo, &normal}) *image = cropped(*image, *options_.region);
+    const OpenImageDenoise library;
+    image::Denoised images;
+    images.picture = library.filter(std::move(radiance), std::move(albedo), std::move(normal));
+    if (options_.region)
+        images.picture = placed(images.picture, *options_.region, film.desc().width, film.desc().height);
+    figures_ = {};
+    figures_.seconds = watch.seconds();
+    figures_.library = library.name();
+    return images;
+}
+
 image::Denoised FilmDenoiser::denoise(const image::Film& film) {
     if (const std::string why = image::whyNoHalves(film); !why.empty()) throw InputError("the film " + why);
     const Stopwatch watch;
     const Interruptible byNobody(nullptr); // of a render that was stopped, too, what there is is filtered
-    // Also where the render itself has fewer: they cost little, and noise in features is noise in the picture.
-    if (!features_) features_ = engine_.renderAovs({{true, true, true}}, kAovSamples);
+    if (options_.denoisesByOidn) return denoiseByLibrary(film);
+    renderFeatures();
     image::DenoiseInput input = image::filmHalves(film);
     input.albedo = features_->albedo;
     input.normal = features_->normal;

@@ -20,6 +20,7 @@ struct DenoiseFigures {
     std::array<double, image::kDenoiseCandidates> shares{};
     std::string device{}; // as of a DenoisedPicture
     std::vector<DenoisePassTime> passes{};
+    std::string library{}; // that has filtered, which says no more; empty: this program
 };
 
 class FilmDenoiser {
@@ -33,6 +34,9 @@ class FilmDenoiser {
     const DenoiseFigures& figures() const { return figures_; } // of the last one
 
   private:
+    void renderFeatures();
+    image::Denoised denoiseByLibrary(const image::Film& film);
+
     const Options& options_;
     Engine& engine_;
     std::optional<AovImages> features_; // made once

@@ -18,6 +18,7 @@
 #include "Common/App/Session/FeatureNames.h"
 #include "Common/App/Session/ImagePart.h"
 #include "Common/App/Session/Interrupt.h"
+#include "Common/App/Session/OpenImageDenoise.h"
 #include "Common/App/Session/Outputs.h"
 #include "Common/App/Session/Reference.h"
 #include "Common/App/Session/Resume.h"
@@ -73,7 +74,10 @@ class HeadlessRender {
         : options_(std::move(options)), ranks_(ranks) {}
 
     ExitCode run(const EngineFactory& makeEngine) {
-        interrupt_.finishFirst([this] { checkOutputs(options_); }); // before hours are spent
+        interrupt_.finishFirst([this] { // before hours are spent
+            checkOutputs(options_);
+            if (options_.denoisesByOidn) OpenImageDenoise();
+        });
         load();
         engine_ = makeEngine();
         if (ranks_ != nullptr) engine_ = makeRankedEngine(std::move(engine_), *ranks_);

@@ -59,6 +59,7 @@ Json errorJson(const image::ErrorFigures& error) {
 // Shares of the pixels that kept each bandwidth, in standard deviations of the noise; "raw": those left as they are.
 // The device, and how long it took for each pass, unless the processor has filtered.
 Json denoisedJson(const DenoiseFigures& figures) {
+    if (!figures.library.empty()) return {{"library", figures.library}, {"seconds", figures.seconds}};
     Json shares = Json::array();
     for (std::uint32_t i = 0; i < shared::kDenoiseBandwidths; ++i) {
         const shared::DenoiseBandwidth candidate = shared::denoiseBandwidth(i);
