@@ -37,7 +37,8 @@ void addSuiteFlags(CLI::App& app, BenchFlags& flags) {
     BenchOptions& options = flags.options;
     std::string suites;
     for (const NamedSuite& suite : namedSuites()) suites += std::string(suite.name) + "|";
-    app.add_option("SUITE", options.suite,
+    suites += std::string(kLiveSuite) + "|";
+    app.add_option("SUITE,--suite", options.suite,
                    "quick (the default) or another that comes with the program, or a .json file")
         ->type_name(suites + "FILE");
     app.add_flag("--quick", flags.quick, "the suite quick");
@@ -129,6 +130,8 @@ std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& ar
         throw UsageError("--quick: " + options.suite + " is another suite");
     checkEngines(options.engines);
     options.imports = parseImports(flags.imports);
+    if (options.suite == kLiveSuite && !options.report.empty())
+        throw UsageError("--report: not with the suite live, whose tables go to standard output");
     return options;
 }
 

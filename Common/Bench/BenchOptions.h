@@ -10,6 +10,9 @@
 
 namespace rt::bench {
 
+// The suite of frames of a camera that moves, which is no list of experiments: Live.h.
+inline constexpr const char* kLiveSuite = "live";
+
 struct BenchOptions {
     std::string suite = "quick";      // name or file
     std::vector<std::string> scenes;  // instead of the suite's

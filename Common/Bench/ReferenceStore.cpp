@@ -18,8 +18,12 @@ constexpr double kVarianceShare = 1.0 / 9; // of the measured mse: a third in st
 constexpr double kMaxGrowth = 8; // of the number of samples in one step, since the least error is only estimated
 constexpr std::uint64_t kMaxSpp = 1u << 30;
 
+const scene::CameraDesc& cameraOf(const ReferenceRequest& request) {
+    return request.camera == nullptr ? request.scene->camera : *request.camera;
+}
+
 app::ReferenceKey keyOf(const ReferenceRequest& request) {
-    return {request.scene->hash, request.scene->camera, request.width, request.height, request.maxDepth};
+    return {request.scene->hash, cameraOf(request), request.width, request.height, request.maxDepth};
 }
 
 // By what factor its variance is too large; at most 1: it suffices.
@@ -75,7 +79,7 @@ std::optional<ReferenceResult> ReferenceStore::provide(const ReferenceRequest& r
             target = static_cast<double>(result.spp) * std::clamp(1.2 * factor, 1.5, kMaxGrowth);
         }
         settings.spp = static_cast<std::uint32_t>(roundedUp(target));
-        app::FilmRun run(engine, request.scene->camera, settings, std::move(film));
+        app::FilmRun run(engine, cameraOf(request), settings, std::move(film));
         run.limit({.seconds = request.maxSeconds - result.seconds});
         run.untilStopped(stop);
         result.seconds += run.seconds();

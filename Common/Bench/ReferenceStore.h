@@ -21,8 +21,9 @@ struct ReferenceRequest {
     const scene::CompiledScene* scene = nullptr;
     std::uint32_t width = 0, height = 0;
     std::uint32_t maxDepth = 0;
-    double maxSeconds = 60;       // of rendering
-    std::uint64_t firstSpp = 256; // to begin with where nothing is cached
+    double maxSeconds = 60;                    // of rendering
+    std::uint64_t firstSpp = 256;              // to begin with where nothing is cached
+    const scene::CameraDesc* camera = nullptr; // null: the scene's
 };
 
 struct ReferenceResult {

@@ -12,6 +12,7 @@
 #include "Common/App/Session/Interrupt.h"
 #include "Common/Bench/BenchOptions.h"
 #include "Common/Bench/Comparison.h"
+#include "Common/Bench/Live.h"
 #include "Common/Bench/Machine.h"
 #include "Common/Bench/Parts.h"
 #include "Common/Bench/Report.h"
@@ -167,6 +168,7 @@ int measure(const bench::BenchOptions& options) {
 int listSuites() {
     for (const bench::NamedSuite& suite : bench::namedSuites())
         std::cout << suite.name << ": " << bench::loadSuite(suite.name).title << "\n";
+    std::cout << bench::kLiveSuite << ": A camera that moves: error and time of each frame, raw and live\n";
     return static_cast<int>(ExitCode::Done);
 }
 
@@ -218,6 +220,29 @@ int measureParts(const bench::BenchOptions& options) {
     return static_cast<int>(ExitCode::Done);
 }
 
+// Of every scene that is asked for on every engine that is.
+int measureLive(const bench::BenchOptions& options) {
+    app::Interrupt interrupt;
+    const EngineList list(options);
+    bench::Engines engines(list.kinds());
+    bench::ReferenceStore references(referenceFolder(), options.freshReferences);
+    bench::LiveRequest request;
+    interrupt.defer();
+    const auto say = [&](const std::string& text) {
+        if (!options.quiet) std::cerr << request.scene << ", " << request.engine << ": " << text << std::endl;
+    };
+    for (const std::string& scene : options.scenes.empty() ? std::vector{request.scene} : options.scenes)
+        for (const std::string& engine : options.engines.empty() ? std::vector{request.engine} : options.engines) {
+            if (const std::string why = engines.missing(engine); !why.empty()) throw RenderError(engine + ": " + why);
+            request.scene = scene;
+            request.engine = engine;
+            const auto frames = bench::measureLive(engines, references, request, interrupt.requested(), say);
+            std::cout << toMarkdown(bench::describeLive(request, frames), noLinks) << std::flush;
+            if (interrupt.requested()) return static_cast<int>(ExitCode::Interrupted);
+        }
+    return static_cast<int>(ExitCode::Done);
+}
+
 int run(const std::vector<std::string>& arguments) {
     const auto options = bench::parseBenchOptions(arguments, std::cout);
     if (!options) return 0; // --help, --version
@@ -226,6 +251,7 @@ int run(const std::vector<std::string>& arguments) {
     if (!options->compare.empty()) return compare(*options);
     if (options->stability) return measureStability(*options);
     if (options->parts) return measureParts(*options);
+    if (options->suite == bench::kLiveSuite) return measureLive(*options);
     return measure(*options);
 }
 
