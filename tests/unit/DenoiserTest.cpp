@@ -136,6 +136,23 @@ TEST(Denoiser, TakesPicturesOfAnySize) {
     }
 }
 
+TEST(Denoiser, NeedsNoneOfTheFeatures) {
+    const DenoiseInput noisy = noisyHalves(kGrey, 6, kSide);
+    const Image ramp = picture(kSide, kSide, [](auto x, auto, auto) { return static_cast<float>(x) / kSide; });
+    Image depth(kSide, kSide, 1);
+    for (std::size_t i = 0; i < depth.data.size(); ++i) depth.data[i] = 1 + ramp.data[3 * i];
+    const double least = 0.25 / 2 / 0.26 / 20; // a twentieth of the raw picture's
+    for (const std::uint32_t lacking : {0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u}) {
+        DenoiseInput input = noisy;
+        if ((lacking & 1) == 0) input.albedo = ramp;
+        if ((lacking & 2) == 0) input.normal = ramp;
+        if ((lacking & 4) == 0) input.depth = depth;
+        const Denoised result = denoise(input, 1);
+        expectFinite(result);
+        EXPECT_LT(relMse(result.picture, 0.5), least) << lacking;
+    }
+}
+
 TEST(Denoiser, HasTheSameBitsForAnyNumberOfThreads) {
     const DenoiseInput input = noisyHalves([](auto x, auto, auto) { return x < 30 ? 0.1f : 1.0f; }, 5, kSide);
     const Denoised one = denoise(input, 2, 1), many = denoise(input, 2, 5);
