@@ -14,9 +14,16 @@ void main() {
     if (!isInside(pixel)) return;
     ivec2 first = max(pixel - reach, ivec2(0));
     ivec2 last = min(pixel + reach, ivec2(launch.width, launch.height) - 1);
-    vec4 sum = vec4(0.0f);
+    vec4 sum = vec4(0.0f), others = vec4(0.0f);
+    int otherCount = 0;
     for (int y = first.y; y <= last.y; y++)
-        for (int x = first.x; x <= last.x; x++) sum += launch.values.at[pixelIndex(ivec2(x, y))];
+        for (int x = first.x; x <= last.x; x++) {
+            vec4 value = launch.values.at[pixelIndex(ivec2(x, y))];
+            sum += value;
+            if (max(abs(x - pixel.x), abs(y - pixel.y)) <= kDenoiseOwnReach) continue;
+            others += value;
+            otherCount++;
+        }
     ivec2 size = last - first + 1;
     vec4 mean = sum / float(size.x * size.y);
     if (launch.use == kMeansToGuides) {
@@ -24,7 +31,11 @@ void main() {
     } else if (launch.use == kMeansToTones) {
         for (uint half_ = 0u; half_ < 2u; half_++)
             launch.guides.at[half_ * pixelCount() + pixelIndex(pixel)].w = mean.x;
-    } else {
-        launch.means.at[pixelIndex(pixel)] = launch.use == kMeansPositive ? max(mean, vec4(0.0f)) : mean;
+    } else if (launch.use == kMeansPositive) {
+        launch.means.at[pixelIndex(pixel)] = max(mean, vec4(0.0f));
+    } else { // of the candidates' errors
+        for (int i = 0; i < 4 && otherCount > 0; i++)
+            mean[i] = denoiseChoiceError(mean[i], others[i] / float(otherCount));
+        launch.means.at[pixelIndex(pixel)] = mean;
     }
 }

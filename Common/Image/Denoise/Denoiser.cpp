@@ -47,6 +47,27 @@ shared::DenoisedValue valueOf(const Halves& halves, std::size_t candidate, std::
             halves.partnerFactors[candidate][half].row(y)[x]};
 }
 
+// Pixels of a row or column that lie in reach of one of them.
+double inReach(std::size_t at, std::size_t size, std::size_t reach) {
+    return static_cast<double>(std::min(at + reach, size - 1) - (at < reach ? 0 : at - reach) + 1);
+}
+
+Plane choiceErrors(const Plane& errors, std::size_t threads) {
+    constexpr std::size_t kAll = shared::kDenoiseErrorReach, kOwn = shared::kDenoiseOwnReach;
+    Plane all = boxMean(errors, kAll, threads);
+    const Plane own = boxMean(errors, kOwn, threads);
+    const std::size_t width = errors.width(), height = errors.height();
+    for (std::size_t y = 0; y < height; ++y)
+        for (std::size_t x = 0; x < width; ++x) {
+            const double count = inReach(x, width, kAll) * inReach(y, height, kAll),
+                         near = inReach(x, width, kOwn) * inReach(y, height, kOwn);
+            if (count == near) continue;
+            const double others = (count * all.row(y)[x] - near * own.row(y)[x]) / (count - near);
+            all.row(y)[x] = shared::denoiseChoiceError(all.row(y)[x], static_cast<float>(others));
+        }
+    return all;
+}
+
 // The error of a candidate by which it is chosen: in tones, of each pixel's own noise.
 Plane candidateErrors(const Halves& halves, std::size_t candidate, std::size_t threads) {
     Plane errors(halves.variance.width(), halves.variance.height());
@@ -62,7 +83,7 @@ Plane candidateErrors(const Halves& halves, std::size_t candidate, std::size_t t
                 errors.row(y)[x] += shared::denoiseError(values[0], values[1], 0);
             }
     });
-    return boxMean(errors, shared::kDenoiseErrorReach, threads);
+    return choiceErrors(errors, threads);
 }
 
 using Choice = std::array<Plane, kDenoiseCandidates>; // the weight of each candidate in a pixel
