@@ -36,6 +36,7 @@ void main() {
     } else { // of the candidates' errors
         for (int i = 0; i < 4 && otherCount > 0; i++)
             mean[i] = denoiseChoiceError(mean[i], others[i] / float(otherCount));
+        mean[kRawCandidate] *= kDenoiseRawCaution;
         launch.means.at[pixelIndex(pixel)] = mean;
     }
 }

@@ -83,7 +83,11 @@ Plane candidateErrors(const Halves& halves, std::size_t candidate, std::size_t t
                 errors.row(y)[x] += shared::denoiseError(values[0], values[1], 0);
             }
     });
-    return choiceErrors(errors, threads);
+    Plane means = choiceErrors(errors, threads);
+    if (candidate == kRaw)
+        for (std::size_t y = 0; y < means.height(); ++y)
+            for (std::size_t x = 0; x < means.width(); ++x) means.row(y)[x] *= shared::kDenoiseRawCaution;
+    return means;
 }
 
 using Choice = std::array<Plane, kDenoiseCandidates>; // the weight of each candidate in a pixel
@@ -91,7 +95,6 @@ using Choice = std::array<Plane, kDenoiseCandidates>; // the weight of each cand
 // 1 for the candidate of the least error.
 Choice choose(const Halves& halves, std::size_t threads) {
     const std::size_t width = halves.variance.width(), height = halves.variance.height();
-    // Of few samples the halves may both have missed what there is: what is black twice then looks free of noise.
     const std::size_t candidates = halves.samplesOfHalf >= shared::kDenoiseRawSamples ? kDenoiseCandidates : kRaw;
     Choice errors, chosen;
     for (std::size_t i = 0; i < kDenoiseCandidates; ++i) {

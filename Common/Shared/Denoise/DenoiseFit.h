@@ -17,8 +17,10 @@ const float kDenoisePixel = 0.1f; // from one pixel to the next: coordinates are
 const float kDenoiseRidge = 1.0e-3f; // of the sum of weights: a feature that varies by much less has no say
 const float kDenoiseTiny = 1.0e-6f;  // keeps the system regular where nothing varies
 
-const uint kDenoiseRawSamples = 32u; // of each half, from which on a pixel may stay as it is
-const int kDenoiseBlendReach = 1;    // pixels
+const uint kDenoiseRawSamples = 4u;    // of each half, from which on a pixel may stay as it is,
+const float kDenoiseRawCaution = 2.0f; // where its error is so many times less: halves that have missed the same look
+                                       // free of noise
+const int kDenoiseBlendReach = 1;      // pixels
 
 // A value of the surface, finite and at most 2, before it is scaled.
 RT_FN float denoiseBounded(float value, float minimum) {
