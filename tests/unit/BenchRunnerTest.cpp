@@ -16,7 +16,6 @@
 #include "Common/Bench/ReferenceStore.h"
 #include "Common/Bench/Runner.h"
 #include "Common/Core/Error.h"
-#include "Common/Render/PictureDenoiser.h"
 #include "tests/TempFolder.h"
 #include "tests/unit/FakeEngine.h"
 
@@ -75,22 +74,6 @@ TEST(BenchMeasurement, TimeBudgetsGiveWhatTheTimeAllows) {
     ASSERT_EQ(run.snapshots.size(), 2u);
     EXPECT_EQ(run.snapshots[0].timeBudget, 0.005);
     EXPECT_GE(run.snapshots[1].spp, run.snapshots[0].spp);
-}
-
-TEST(BenchMeasurement, AFilteredSnapshotIsWhatTheDenoiserMakesOfBothHalves) {
-    FakeEngine engine;
-    const auto run = measure(engine, *someScene(), small(), {{2, 8}, {}, 1e30, Denoise::On}, 7, kGoOn);
-    ASSERT_EQ(run.snapshots.size(), 2u);
-    EXPECT_EQ(engine.film().desc().replicates, 2u);
-    const auto expected = engine.makeDenoiser()->denoise({app::DenoiseQuality::Final}, kGoOn);
-    const Snapshot& last = run.snapshots.back();
-    EXPECT_EQ(last.image.data, expected->images.picture.data);
-    EXPECT_EQ(last.estimatedRelmse, expected->images.relmse.value);
-    EXPECT_GT(last.secondsDenoise, 0);
-    EXPECT_GT(last.seconds, last.secondsDenoise); // and the samples
-    const auto live = measure(engine, *someScene(), small(), {{8}, {}, 1e30, Denoise::Live}, 7, kGoOn);
-    EXPECT_NE(live.snapshots.at(0).image.data, last.image.data);
-    EXPECT_FALSE(live.snapshots.at(0).estimatedRelmse);
 }
 
 // A device that consumes a joule between two looks.
@@ -212,25 +195,6 @@ TEST(BenchRunner, RowsForEachCombinationAndStep) {
     EXPECT_NE(results.notices[0].find("compute"), std::string::npos);
     EXPECT_FALSE(said.empty());
     EXPECT_FALSE(results.grids.empty());
-}
-
-TEST(BenchRunner, RawAndDenoisedRowsStandSideBySide) {
-    Engines engines(fakeKinds());
-    ReferenceStore store({}, false);
-    const Suite suite = parseSuite(R"({"version": 1, "experiments": [{"name": "e", "scene": "one-weekend-default",
-        "width": 16, "height": 16, "denoise": ["off", "on"], "spp": [4, 16], "repeats": 3}]})",
-                                   "s.json");
-    const Results results = runSuite(suite, engines, store, {[](const std::string&) {}, {}}, kGoOn);
-    ASSERT_EQ(results.rows.size(), 4u);
-    for (const Row& row : results.rows) {
-        const bool isRaw = row.config.denoise == Denoise::Off;
-        EXPECT_EQ(bool(row.secondsDenoise), !isRaw);
-        EXPECT_EQ(bool(row.estimatedRelmse), !isRaw);
-        EXPECT_EQ(bool(row.biasZ), isRaw); // noise that is spread out is not independent from pixel to pixel
-        EXPECT_EQ(bool(row.efficiency), isRaw);
-        EXPECT_TRUE(row.relmse && row.flip);
-    }
-    EXPECT_LT(*results.rows[2].relmse, 0.2 * *results.rows[0].relmse); // a flat grey picture
 }
 
 TEST(BenchRunner, KeepsWhatWasMeasuredBeforeAnInterruption) {
