@@ -4,126 +4,78 @@
 //                                          patches, in shared memory
 //     distances of patches, weights        one pixel an invocation, as is what follows
 //     normal equations                     in registers, of all bandwidths
-// Tiles with as many features as this shader is specialized for are filtered, others left alone: so all sums stand in
-// registers.
+// Tiles with as many features as this shader is specialized for are filtered, others left alone. No invocation has an
+// array: what is indexed by a loop that a driver does not unroll lies in memory, and takes ten times as long.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #include "Denoise.glsl"
+#include "DenoiseDistances.glsl"
 
 layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
-// Of this pipeline. Loops end at kDenoiseFeatures all the same: drivers that unroll none that end at a specialization
-// constant would keep the sums in memory.
-layout(constant_id = 0) const int kFitFeatures = kDenoiseFeatures;
+layout(constant_id = 0) const int kFitFeatures = kDenoiseFeatures; // of this pipeline
+const int kSurface = kFitFeatures - 3;                             // of these of the surface
 
-const int kAtOnce = 8; // offsets
-const int kPatchSide = 2 * kDenoisePatchReach + 1;
-const int kPatchColumns = kDenoiseColumns + 2 * kDenoisePatchReach; // that the patches of a row of the group have
-const int kRowPitch = kAtOnce * kPatchColumns + 8; // rows that a subgroup reads begin in banks of their own
-const int kReachSide = 2 * kDenoiseReach + 1;
-const int kOffsets = kReachSide * kReachSide;
-const float kSmallShare = 1.0f / 9.0f; // of a pixel in a patch
-const float kLargeShare = 1.0f / float(kPatchSide * kPatchSide);
-const int kDown = 2; // the feature that is the same for all of a row
-const int kProducts = kDenoiseFeatures * (kDenoiseFeatures + 1) / 2;
-
-// Sums of the columns of patches, [row][offset][column].
-shared float smallSums[kDenoiseRows * kRowPitch];
-shared float largeSums[kDenoiseRows * kRowPitch];
-
-float pixelDistance(vec4 a, vec4 b) {
-    vec3 difference = a.rgb - b.rgb;
-    return denoiseDistance(dot(difference, difference), a.w, b.w);
-}
-
-// Of a square around a pixel, row by row.
-ivec2 offsetInSquare(int i, int side) {
-    return ivec2(i % side, i / side) - side / 2;
-}
-// Of the pixels next to it, of which there are kAtOnce.
-ivec2 neighbour(int i) {
-    return offsetInSquare(i < 4 ? i : i + 1, 3);
-}
-
-// Walks down a column of pixels: distances to those at an offset, and of each patch that has its middle in the column,
-// or beside it, the sum of this column's.
-void sumColumn(ivec2 top, ivec2 offset, int half_, int to) {
-    int pitch = denoisePitch(launch.width);
-    int here = planeIndex(top, 1 - half_);
-    int there = here + offset.y * pitch + offset.x;
-    float last[kPatchSide]; // distances
-    [[unroll]] for (int row = 0; row < kDenoiseRows + kPatchSide - 1; row++) {
-        [[unroll]] for (int i = 0; i < kPatchSide - 1; i++) last[i] = last[i + 1];
-        last[kPatchSide - 1] = pixelDistance(launch.guides.at[here], launch.guides.at[there]);
-        here += pitch;
-        there += pitch;
-        if (row < kPatchSide - 1) continue;
-        float middle = last[2] + last[3] + last[4];
-        smallSums[to] = middle;
-        largeSums[to] = middle + (last[0] + last[1]) + (last[5] + last[6]);
-        to += kRowPitch;
-    }
-}
-
-// Sums of columns at kAtOnce offsets: from the given one in reach on, or to the neighbours where that is negative.
-void sumColumns(ivec2 group, int firstOffset, int half_) {
-    int i = int(gl_LocalInvocationIndex) / kPatchColumns;
-    int column = int(gl_LocalInvocationIndex) % kPatchColumns;
-    if (i >= kAtOnce || firstOffset + i >= kOffsets) return;
-    ivec2 offset = firstOffset < 0 ? neighbour(i) : offsetInSquare(firstOffset + i, kReachSide);
-    sumColumn(group + ivec2(column, 0) - kDenoisePatchReach, offset, half_, i * kPatchColumns + column);
-}
-
-// Of what stands at the i-th of these offsets from the invocation's pixel: the weight that each bandwidth gives it.
-void weigh(int i, out float weights[kDenoiseBandwidths]) {
-    int at = int(gl_LocalInvocationID.y) * kRowPitch + i * kPatchColumns + int(gl_LocalInvocationID.x);
-    float large = 0.0f;
-    [[unroll]] for (int dx = 0; dx < kPatchSide; dx++) large += largeSums[at + dx];
-    float small = smallSums[at + 2] + smallSums[at + 3] + smallSums[at + 4];
-    [[unroll]] for (uint candidate = 0u; candidate < kDenoiseBandwidths; candidate++) {
-        float distance = denoiseBandwidth(candidate).patchReach == 1 ? small * kSmallShare : large * kLargeShare;
-        weights[candidate] = denoiseWeight(distance, denoisePerSquaredBandwidth(candidate));
-    }
-}
-
-bool hasWeight(float weights[kDenoiseBandwidths]) {
-    float most = 0.0f;
-    [[unroll]] for (uint candidate = 0u; candidate < kDenoiseBandwidths; candidate++)
-        most = max(most, weights[candidate]);
-    return most > 0.0f;
-}
-
-// What radiance is a linear function of: 1, the way across and down from the pixel that is fitted, the surface.
-void loadFeatures(int at, ivec2 offset, out float features[kDenoiseFeatures]) {
-    features[0] = 1.0f;
-    features[1] = kDenoisePixel * float(offset.x);
-    features[kDown] = kDenoisePixel * float(offset.y);
-    vec4 surface = vec4(0.0f);
-    if (kFitFeatures > 3) surface = launch.features.at[at + offset.y * kDenoiseTileReach + offset.x];
-    [[unroll]] for (int i = 0; i < 4; i++) features[3 + i] = surface[i];
-}
-
-// The normal equations of a bandwidth: the lower triangle of the products, row by row, and radiance times features.
+// The normal equations of a bandwidth: sums of weights times the products of two of 1, the ways across and down from
+// the pixel that is fitted, and the features of the surface; and of these times radiance.
 struct Equations {
-    float products[kProducts];
-    vec3 radiance[kDenoiseFeatures];
+    vec3 position; // 1, across, across times across
+    vec3 down;     // down times 1, across, down
+    vec4 surface, surfaceAcross, surfaceDown;
+    float products0; // of a feature of the surface with those up to it
+    vec2 products1;
+    vec3 products2;
+    vec4 products3;
+    vec3 radiance, radianceAcross, radianceDown;
+    vec3 radiance0, radiance1, radiance2, radiance3;
 };
 
-int productOf(int row, int column) {
-    return row * (row + 1) / 2 + column;
+void clear(out Equations sums) {
+    sums.position = sums.down = vec3(0.0f);
+    sums.surface = sums.surfaceAcross = sums.surfaceDown = vec4(0.0f);
+    sums.products0 = 0.0f;
+    sums.products1 = vec2(0.0f);
+    sums.products2 = vec3(0.0f);
+    sums.products3 = vec4(0.0f);
+    sums.radiance = sums.radianceAcross = sums.radianceDown = vec3(0.0f);
+    sums.radiance0 = sums.radiance1 = sums.radiance2 = sums.radiance3 = vec3(0.0f);
 }
 
 // Adds one that is in reach, but for products with the way down, which is the same for all of a row.
-void add(inout Equations sums, float weight, float features[kDenoiseFeatures], vec3 radiance) {
-    [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++) {
-        if (i >= kFitFeatures || i == kDown) continue;
-        float weighed = weight * features[i];
-        [[unroll]] for (int j = 0; j <= i; j++) {
-            if (j != kDown) sums.products[productOf(i, j)] += weighed * features[j];
-        }
-        sums.radiance[i] += weighed * radiance;
+void add(inout Equations sums, float weight, float across, vec4 surface, vec3 radiance) {
+    float weightAcross = weight * across;
+    sums.position += vec3(weight, weightAcross, weightAcross * across);
+    sums.radiance += weight * radiance;
+    sums.radianceAcross += weightAcross * radiance;
+    if (kSurface > 0) {
+        float weighed = weight * surface.x;
+        sums.surface.x += weighed;
+        sums.surfaceAcross.x += weighed * across;
+        sums.products0 += weighed * surface.x;
+        sums.radiance0 += weighed * radiance;
+    }
+    if (kSurface > 1) {
+        float weighed = weight * surface.y;
+        sums.surface.y += weighed;
+        sums.surfaceAcross.y += weighed * across;
+        sums.products1 += weighed * surface.xy;
+        sums.radiance1 += weighed * radiance;
+    }
+    if (kSurface > 2) {
+        float weighed = weight * surface.z;
+        sums.surface.z += weighed;
+        sums.surfaceAcross.z += weighed * across;
+        sums.products2 += weighed * surface.xyz;
+        sums.radiance2 += weighed * radiance;
+    }
+    if (kSurface > 3) {
+        float weighed = weight * surface.w;
+        sums.surface.w += weighed;
+        sums.surfaceAcross.w += weighed * across;
+        sums.products3 += weighed * surface;
+        sums.radiance3 += weighed * radiance;
     }
 }
 
@@ -131,67 +83,90 @@ void add(inout Equations sums, float weight, float features[kDenoiseFeatures], v
 // R, and s(y) that over all rows up to y. Then the sum of y a(y) is R s(R) less the sum of s(y) over the rows but the
 // last, and that of y^2 a(y) is R^2 s(R) less the sum of (2 y + 1) s(y). This is what the end of a row takes off.
 void endRow(inout Equations sums, int y) {
-    [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++) {
-        if (i >= kFitFeatures) continue;
-        float row = sums.products[productOf(i, 0)];
-        if (i == kDown) continue;
-        sums.products[productOf(max(i, kDown), min(i, kDown))] -= row;
-        if (i == 0) sums.products[productOf(kDown, kDown)] -= float(2 * y + 1) * row;
-    }
-    sums.radiance[kDown] -= sums.radiance[0];
+    sums.down -= vec3(sums.position.xy, float(2 * y + 1) * sums.position.x);
+    sums.surfaceDown -= sums.surface;
+    sums.radianceDown -= sums.radiance;
 }
 void endRows(inout Equations sums) {
     const float kReach = float(kDenoiseReach);
-    sums.products[productOf(kDown, kDown)] += kReach * kReach * sums.products[0];
-    sums.products[productOf(kDown, kDown)] *= kDenoisePixel * kDenoisePixel;
-    [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++) {
-        if (i >= kFitFeatures || i == kDown) continue;
-        int product = productOf(max(i, kDown), min(i, kDown));
-        sums.products[product] = kDenoisePixel * (sums.products[product] + kReach * sums.products[productOf(i, 0)]);
-    }
-    sums.radiance[kDown] = kDenoisePixel * (sums.radiance[kDown] + kReach * sums.radiance[0]);
+    sums.down += kReach * vec3(sums.position.xy, kReach * sums.position.x);
+    sums.down *= kDenoisePixel * vec3(1.0f, 1.0f, kDenoisePixel);
+    sums.surfaceDown = kDenoisePixel * (sums.surfaceDown + kReach * sums.surface);
+    sums.radianceDown = kDenoisePixel * (sums.radianceDown + kReach * sums.radiance);
 }
 
-// The inverse of the products times the features of the pixel itself, by L D L^T. What is fitted there is this times
-// the sums of radiance.
-void solve(Equations sums, float features[kDenoiseFeatures], out float x[kDenoiseFeatures]) {
-    float l[kProducts] = sums.products;
-    float inverse[kDenoiseFeatures];
-    l[0] += kDenoiseTiny;
-    [[unroll]] for (int i = 1; i < kDenoiseFeatures; i++)
-        if (i < kFitFeatures) l[productOf(i, i)] += kDenoiseRidge * l[0] + kDenoiseTiny;
-    float diagonal[kDenoiseFeatures];
-    [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++) {
-        if (i >= kFitFeatures) continue;
-        float d = l[productOf(i, i)];
-        [[unroll]] for (int k = 0; k < i; k++) d -= l[productOf(i, k)] * l[productOf(i, k)] * diagonal[k];
-        diagonal[i] = max(d, 1.0e-7f); // rounding must not make it negative
-        inverse[i] = 1.0f / diagonal[i];
-        [[unroll]] for (int j = i + 1; j < kDenoiseFeatures; j++) {
-            if (j >= kFitFeatures) continue;
-            float sum = l[productOf(j, i)];
-            [[unroll]] for (int k = 0; k < i; k++) sum -= l[productOf(j, k)] * l[productOf(i, k)] * diagonal[k];
-            l[productOf(j, i)] = sum * inverse[i];
-        }
-    }
-    [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++) {
-        if (i >= kFitFeatures) continue;
-        x[i] = features[i];
-        [[unroll]] for (int j = 0; j < i; j++) x[i] -= l[productOf(i, j)] * x[j];
-    }
-    [[unroll]] for (int i = kDenoiseFeatures - 1; i >= 0; i--) {
-        if (i >= kFitFeatures) continue;
-        x[i] *= inverse[i];
-        [[unroll]] for (int j = i + 1; j < kDenoiseFeatures; j++)
-            if (j < kFitFeatures) x[i] -= l[productOf(j, i)] * x[j];
-    }
+// What is fitted at a pixel is this times the sums of radiance.
+struct Fit {
+    vec3 position; // 1, across, down
+    vec4 surface;
+};
+
+float pivot(float diagonal) {
+    return 1.0f / max(diagonal, 1.0e-7f); // rounding must not make it negative
 }
 
-float fitted(float x[kDenoiseFeatures], float features[kDenoiseFeatures]) {
-    float sum = 0.0f;
-    [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++)
-        if (i < kFitFeatures) sum += x[i] * features[i];
-    return sum;
+// The inverse of the products times the features of the pixel itself, by L D L^T.
+Fit solve(Equations sums, vec4 own) {
+    float weights = sums.position.x + kDenoiseTiny;
+    float ridge = kDenoiseRidge * weights + kDenoiseTiny;
+    float one = pivot(weights);
+    float across1 = one * sums.position.y;
+    float down1 = one * sums.down.x;
+    vec4 surface1 = one * sums.surface;
+    float across = pivot(sums.position.z + ridge - across1 * sums.position.y);
+    float downAcross = sums.down.y - across1 * sums.down.x;
+    vec4 surfaceAcross = sums.surfaceAcross - across1 * sums.surface;
+    float down2 = across * downAcross;
+    vec4 surface2 = across * surfaceAcross;
+    float down = pivot(sums.down.z + ridge - down1 * sums.down.x - down2 * downAcross);
+    vec4 surfaceDown = sums.surfaceDown - down1 * sums.surface - down2 * surfaceAcross;
+    vec4 surface3 = down * surfaceDown;
+    vec3 b = vec3(1.0f, -across1, across1 * down2 - down1);
+    Fit fit;
+    fit.surface = vec4(0.0f);
+    if (kSurface > 0) {
+        vec4 column0 = vec4(sums.products0, sums.products1.x, sums.products2.x, sums.products3.x);
+        vec4 column1 = vec4(0.0f, sums.products1.y, sums.products2.y, sums.products3.y);
+        vec4 column2 = vec4(0.0f, 0.0f, sums.products2.z, sums.products3.z);
+        vec4 column3 = vec4(0.0f, 0.0f, 0.0f, sums.products3.w);
+        column0 -= sums.surface.x * surface1 + surfaceAcross.x * surface2 + surfaceDown.x * surface3;
+        column1 -= sums.surface.y * surface1 + surfaceAcross.y * surface2 + surfaceDown.y * surface3;
+        column2 -= sums.surface.z * surface1 + surfaceAcross.z * surface2 + surfaceDown.z * surface3;
+        column3 -= sums.surface.w * surface1 + surfaceAcross.w * surface2 + surfaceDown.w * surface3;
+        vec4 inverse;
+        inverse.x = pivot(column0.x + ridge);
+        vec4 l0 = inverse.x * column0;
+        column1 -= column0.y * l0;
+        column2 -= column0.z * l0;
+        column3 -= column0.w * l0;
+        inverse.y = pivot(column1.y + ridge);
+        vec4 l1 = inverse.y * column1;
+        column2 -= column1.z * l1;
+        column3 -= column1.w * l1;
+        inverse.z = pivot(column2.z + ridge);
+        vec4 l2 = inverse.z * column2;
+        column3 -= column2.w * l2;
+        inverse.w = pivot(column3.w + ridge);
+        vec4 c = own - b.x * surface1 - b.y * surface2 - b.z * surface3;
+        c.yzw -= c.x * l0.yzw;
+        c.zw -= c.y * l1.zw;
+        c.w -= c.z * l2.w;
+        c *= inverse;
+        c.z -= c.w * l2.w;
+        c.y -= dot(c.zw, l1.zw);
+        c.x -= dot(c.yzw, l0.yzw);
+        fit.surface = c;
+    }
+    fit.position.z = down * b.z - dot(surface3, fit.surface);
+    fit.position.y = across * b.y - down2 * fit.position.z - dot(surface2, fit.surface);
+    fit.position.x = one - across1 * fit.position.y - down1 * fit.position.z - dot(surface1, fit.surface);
+    return fit;
+}
+
+vec3 valueOf(Fit fit, Equations sums) {
+    return fit.position.x * sums.radiance + fit.position.y * sums.radianceAcross + fit.position.z * sums.radianceDown +
+           fit.surface.x * sums.radiance0 + fit.surface.y * sums.radiance1 + fit.surface.z * sums.radiance2 +
+           fit.surface.w * sums.radiance3;
 }
 
 // Where an invocation's pixel is.
@@ -221,80 +196,85 @@ vec4 radianceAt(Place place, ivec2 offset) {
     return launch.radiance.at[place.plane + offset.y * denoisePitch(launch.width) + offset.x];
 }
 
-// The normal equations of all bandwidths.
-void sumUp(Place place, out Equations sums[kDenoiseBandwidths]) {
-    [[unroll]] for (uint candidate = 0u; candidate < kDenoiseBandwidths; candidate++) {
-        [[unroll]] for (int i = 0; i < kProducts; i++) sums[candidate].products[i] = 0.0f;
-        [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++) sums[candidate].radiance[i] = vec3(0.0f);
-    }
-    float weights[kDenoiseBandwidths];
-    float features[kDenoiseFeatures];
-    for (int first = 0; first < kOffsets; first += kAtOnce) {
-        barrier(); // the sums of before have been read
-        sumColumns(place.group, first, place.half_);
-        barrier();
-        for (int i = 0; i < min(kAtOnce, kOffsets - first); i++) {
-            ivec2 offset = offsetInSquare(first + i, kReachSide);
-            weigh(i, weights);
-            if (hasWeight(weights)) {
+vec4 surfaceAt(Place place, ivec2 offset) {
+    if (kSurface == 0) return vec4(0.0f);
+    return launch.features.at[place.feature + offset.y * kDenoiseTileReach + offset.x];
+}
+
+// The normal equations of all bandwidths. That offsets have no weight is no reason not to add them: loads would have to
+// wait until that is known.
+void sumUp(Place place, out Equations first, out Equations second, out Equations third) {
+    clear(first);
+    clear(second);
+    clear(third);
+    for (int down = -kDenoiseReach; down <= kDenoiseReach; down++) {
+        for (int from = -kDenoiseReach; from <= kDenoiseReach; from += kAtOnce) {
+            sumColumns(place.group, ivec2(from, down), kAtOnce, place.half_);
+            for (int i = 0; i < min(kAtOnce, kDenoiseReach + 1 - from); i++) {
+                ivec2 offset = ivec2(from + i, down);
                 vec4 radiance = radianceAt(place, offset);
-                loadFeatures(place.feature, offset, features);
-                [[unroll]] for (uint candidate = 0u; candidate < kDenoiseBandwidths; candidate++)
-                    add(sums[candidate], weights[candidate] * radiance.w, features, radiance.rgb);
+                vec4 surface = surfaceAt(place, offset);
+                vec3 weights = radiance.w * weigh(i);
+                float across = kDenoisePixel * float(offset.x);
+                add(first, weights.x, across, surface, radiance.rgb);
+                add(second, weights.y, across, surface, radiance.rgb);
+                add(third, weights.z, across, surface, radiance.rgb);
             }
-            if (offset.x < kDenoiseReach || offset.y == kDenoiseReach) continue;
-            [[unroll]] for (uint candidate = 0u; candidate < kDenoiseBandwidths; candidate++)
-                endRow(sums[candidate], offset.y);
         }
+        if (down == kDenoiseReach) break;
+        endRow(first, down);
+        endRow(second, down);
+        endRow(third, down);
     }
-    [[unroll]] for (uint candidate = 0u; candidate < kDenoiseBandwidths; candidate++) endRows(sums[candidate]);
+    endRows(first);
+    endRows(second);
+    endRows(third);
 }
 
 bool isPartner(ivec2 offset, ivec2 pixel) {
-    return (offset.x == 0 || offset.x == denoisePartner(1, pixel.x)) &&
+    return offset != ivec2(0) && (offset.x == 0 || offset.x == denoisePartner(1, pixel.x)) &&
            (offset.y == 0 || offset.y == denoisePartner(1, pixel.y));
 }
 
+float fitted(Fit fit, vec2 way, vec4 surface) {
+    return dot(fit.position, vec3(1.0f, way)) + dot(fit.surface, surface);
+}
+
 // By which the other pixels of a square of 2x2 enter what is fitted, for each bandwidth.
-void addPartners(Place place, float x[kDenoiseBandwidths][kDenoiseFeatures], inout vec2 factors[kDenoiseBandwidths]) {
-    barrier();
-    sumColumns(place.group, -1, place.half_);
-    barrier();
-    float weights[kDenoiseBandwidths];
-    float features[kDenoiseFeatures];
-    for (int i = 0; i < kAtOnce; i++) {
-        ivec2 offset = neighbour(i);
+vec3 partnerFactors(Place place, Fit first, Fit second, Fit third) {
+    const int kSide = 3;
+    sumColumns(place.group, ivec2(-1), kSide, place.half_);
+    vec3 factors = vec3(0.0f);
+    for (int i = 0; i < kSide * kSide; i++) {
+        ivec2 offset = ivec2(i % kSide, i / kSide) - 1;
         if (!isPartner(offset, place.pixel)) continue;
-        weigh(i, weights);
-        loadFeatures(place.feature, offset, features);
-        float inside = radianceAt(place, offset).w;
-        [[unroll]] for (uint candidate = 0u; candidate < kDenoiseBandwidths; candidate++)
-            factors[candidate].y += inside * weights[candidate] * fitted(x[candidate], features);
+        vec2 way = kDenoisePixel * vec2(offset);
+        vec4 surface = surfaceAt(place, offset);
+        vec3 values = vec3(fitted(first, way, surface), fitted(second, way, surface), fitted(third, way, surface));
+        factors += radianceAt(place, offset).w * weigh(i) * values;
     }
+    return factors;
+}
+
+void store(Place place, uint candidate, Fit fit, Equations sums, vec4 own, float partnerFactor) {
+    uint at = (candidate * 2u + uint(place.half_)) * pixelCount() + pixelIndex(place.pixel);
+    vec2 factors = vec2(fitted(fit, vec2(0.0f), own), partnerFactor); // the pixel's own weight is 1
+    launch.filtered.at[at] = vec4(max(valueOf(fit, sums), vec3(0.0f)), uintBitsToFloat(packHalf2x16(factors)));
 }
 
 void main() {
     Place place = placeOf(gl_WorkGroupID, ivec2(gl_LocalInvocationID.xy));
-    if (launch.axes.at[place.tile] + 3u != uint(kFitFeatures)) return;
-    Equations sums[kDenoiseBandwidths];
-    sumUp(place, sums);
-    float own[kDenoiseFeatures];
-    loadFeatures(place.feature, ivec2(0), own);
-    float x[kDenoiseBandwidths][kDenoiseFeatures];
-    vec2 factors[kDenoiseBandwidths];
-    vec3 values[kDenoiseBandwidths];
-    [[unroll]] for (uint candidate = 0u; candidate < kDenoiseBandwidths; candidate++) {
-        solve(sums[candidate], own, x[candidate]);
-        values[candidate] = vec3(0.0f);
-        [[unroll]] for (int i = 0; i < kDenoiseFeatures; i++)
-            if (i < kFitFeatures) values[candidate] += x[candidate][i] * sums[candidate].radiance[i];
-        factors[candidate] = vec2(fitted(x[candidate], own), 0.0f); // the pixel's own weight is 1
-    }
-    if (launch.dependentSide != 1u) addPartners(place, x, factors);
+    if (launch.axes.at[place.tile] != uint(kSurface)) return;
+    Equations first, second, third;
+    sumUp(place, first, second, third);
+    vec4 own = surfaceAt(place, ivec2(0));
+    Fit firstFit = solve(first, own);
+    Fit secondFit = solve(second, own);
+    Fit thirdFit = solve(third, own);
+    vec3 partners = vec3(0.0f);
+    if (launch.dependentSide != 1u) partners = partnerFactors(place, firstFit, secondFit, thirdFit);
     if (!isInside(place.pixel)) return;
-    [[unroll]] for (uint candidate = 0u; candidate < kDenoiseBandwidths; candidate++) {
-        uint at = (candidate * 2u + uint(place.half_)) * pixelCount() + pixelIndex(place.pixel);
-        launch.filtered.at[at] =
-            vec4(max(values[candidate], vec3(0.0f)), uintBitsToFloat(packHalf2x16(factors[candidate])));
-    }
+    store(place, 0u, firstFit, first, own, partners.x);
+    store(place, 1u, secondFit, second, own, partners.y);
+    store(place, 2u, thirdFit, third, own, partners.z);
 }

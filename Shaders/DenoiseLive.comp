@@ -48,9 +48,10 @@ void main() {
     uint here = uint(pixel.y * size.x + pixel.x);
     vec4 surface = launch.features.at[here];
     vec4 normal = launch.features.at[pixels + here];
-    vec4 tones[2] = vec4[2](launch.tones.at[here], launch.tones.at[pixels + here]);
-    LiveSums sums[2];
-    for (int half_ = 0; half_ < 2; half_++) sums[half_] = LiveSums(vec3(0.0f), vec3(0.0f), 0.0f, 0.0f);
+    vec4 tonesA = launch.tones.at[here];
+    vec4 tonesB = launch.tones.at[pixels + here];
+    LiveSums sumsA = LiveSums(vec3(0.0f), vec3(0.0f), 0.0f, 0.0f);
+    LiveSums sumsB = sumsA;
     for (int down = -kLiveReach; down <= kLiveReach; down++) {
         for (int across = -kLiveReach; across <= kLiveReach; across++) {
             ivec2 other = pixel + liveStep(launch.level) * ivec2(across, down);
@@ -59,10 +60,10 @@ void main() {
             float squaredFeatures = squaredLength(surface - launch.features.at[there]) +
                                     squaredLength(normal - launch.features.at[pixels + there]);
             float kernel = liveKernel(down) * liveKernel(across);
-            add(sums[0], tones[0], there, kernel, squaredFeatures);
-            add(sums[1], tones[1], pixels + there, kernel, squaredFeatures);
+            add(sumsA, tonesA, there, kernel, squaredFeatures);
+            add(sumsB, tonesB, pixels + there, kernel, squaredFeatures);
         }
     }
-    vec3 radiance = store(sums[0], here) + store(sums[1], pixels + here);
+    vec3 radiance = store(sumsA, here) + store(sumsB, pixels + here);
     if (launch.level == kLiveLevels - 1) launch.halves.at[here] = 0.5f * radiance;
 }

@@ -21,8 +21,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer PixelPlane 
 const int kDenoiseColumns = 8;
 const int kDenoiseRows = 16;
 // Around the image, bordered planes have what is in reach of the patches of what is in reach: zeros, so that nothing
-// has to ask where it is.
-const int kDenoiseBorder = kDenoiseReach + kDenoisePatchReach;
+// has to ask where it is. One more than these reach: so the pitch is a whole number of lines of memory.
+const int kDenoiseBorder = kDenoiseReach + kDenoisePatchReach + 1;
 const int kDenoiseTileReach = kDenoiseTile + 2 * kDenoiseReach; // pixels a side of what a tile's pixels are fitted by
 RT_CONST float kDenoiseRelativeFloor = 0.01f;                   // of relMSE's denominator
 const uint kDenoiseSums = 8u;                                   // of a work group: see DenoiseBlend.comp

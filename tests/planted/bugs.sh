@@ -53,7 +53,7 @@ bug 'no stop at an edge' DenoiseWeights.h 's/0\.125f \* perSquaredBandwidth/0.0f
 bug 'an error without what is left of the noise' DenoiseWeights.h 's/a\.ownFactor \+ b\.ownFactor - 1\.0f/-1.0f/' unit.Denoiser
 bug 'features that know the noise of the picture' PathKernel.h 's/kFeatureReplicate, 0u\)/0u, 0u)/' image.CpuEngine
 bug 'live weights from the half that is filtered' LiveDenoiser.cpp 's/levels_\[0\]\[1 - half\]\.radiance/levels_[0][half].radiance/' unit.LiveDenoiser
-bug 'weights of the device from the half that is filtered' DenoiseFit.comp 's/planeIndex\(top, 1 - half_\)/planeIndex(top, half_)/' cross.DeviceDenoiserTest
+bug 'weights of the device from the half that is filtered' DenoiseDistances.glsl 's/ivec2\(column, 0\), 1 - half_/ivec2(column, 0), half_/' cross.DeviceDenoiserTest
 bug 'rows of a fit that end alike' DenoiseFit.comp 's/float\(2 \* y \+ 1\)/float(2 * y)/' cross.DeviceDenoiserTest
 bug 'features of the device without their mean' DenoiseFeatures.comp 's/values\[k\] -= mean\[k\];/values[k] -= 0.0f;/' cross.DeviceDenoiserTest
 bug 'live quality by the weights of its own half' DenoiseLivePrepare.comp 's/\(1u - half_\) \* pixels/half_ * pixels/' cross.DeviceDenoiserTest

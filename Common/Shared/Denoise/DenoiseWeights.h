@@ -56,7 +56,7 @@ RT_FN float denoiseDistance(float squaredDifference, float varianceA, float vari
 
 // exp(-distance / bandwidth^2) but for a tail that ends, for the mean distance of two patches.
 RT_FN float denoiseWeight(float distance, float perSquaredBandwidth) {
-    float x = max(1.0f - 0.125f * perSquaredBandwidth * max(distance, 0.0f), 0.0f);
+    float x = clamp(1.0f - 0.125f * perSquaredBandwidth * distance, 0.0f, 1.0f);
     float x2 = x * x;
     float x4 = x2 * x2;
     return x4 * x4;
