@@ -1,7 +1,11 @@
 #include "RayTracingGPU/DeviceDenoiser.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,6 +22,7 @@ namespace rt::gpu {
 namespace {
 
 using shared::DenoiseLaunch;
+using shared::DepthLaunch;
 using shared::kDenoiseBandwidths;
 using shared::LiveLaunch;
 
@@ -32,6 +37,8 @@ constexpr std::uint32_t groupsFor(std::uint32_t size, int groupSize) {
 
 Shader shaderOf(DenoisePass pass) {
     switch (pass) {
+        case DenoisePass::Depths:
+            return Shader::DenoiseDepths;
         case DenoisePass::Prepare:
             return Shader::DenoisePrepare;
         case DenoisePass::Mean:
@@ -58,7 +65,7 @@ Shader shaderOf(DenoisePass pass) {
 
 DenoisePipelines::DenoisePipelines(vulkan::VulkanContext& context, vulkan::PipelineCache& cache)
     : context_(context), cache_(cache) {
-    constexpr std::size_t kBytes = std::max(sizeof(DenoiseLaunch), sizeof(LiveLaunch));
+    constexpr std::size_t kBytes = std::max({sizeof(DenoiseLaunch), sizeof(LiveLaunch), sizeof(DepthLaunch)});
     const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, kBytes};
     layout_ = vulkan::makePipelineLayout(context.device(), push, VK_NULL_HANDLE, kWhat);
 }
@@ -119,6 +126,7 @@ DeviceDenoiser::DeviceDenoiser(vulkan::VulkanContext& context, DenoisePipelines&
     values_ = make(pixels_ * kFourFloats);
     means_ = make(pixels_ * kFourFloats);
     kept_ = make(pixels_ * sizeof(float));
+    depthCounts_ = make(shared::kDepthDigits * sizeof(std::uint32_t));
     sums_ = make(std::size_t{groups().width} * groups().height * shared::kDenoiseSums * sizeof(float));
 }
 
@@ -142,13 +150,36 @@ void DeviceDenoiser::setHalves(const image::Image& a, const image::Image& b) {
 }
 
 float DeviceDenoiser::usualDepth() {
-    if (usualDepth_) return *usualDepth_;
-    std::vector<float> values(pixels_ * shared::kSurfaceValues);
-    vulkan::download(context_, surfaces_, std::as_writable_bytes(std::span(values)));
-    image::Image depth(width_, height_, 1);
-    for (std::size_t i = 0; i < pixels_; ++i) depth.data[i] = values[(i + 1) * shared::kSurfaceValues - 1];
-    usualDepth_ = image::usualDepth(depth);
+    if (!usualDepth_) usualDepth_ = findUsualDepth();
     return *usualDepth_;
+}
+
+// As image::usualDepth() has it, digit by digit: 1 kB of each comes to the host instead of all depths.
+float DeviceDenoiser::findUsualDepth() {
+    constexpr std::uint32_t kPixelsOfLane = 16, kBitsOfDigit = 8;
+    DepthLaunch launch{};
+    launch.surfaces = surfaces_.address();
+    launch.counts = depthCounts_.address();
+    launch.pixels = static_cast<std::uint32_t>(pixels_);
+    std::array<std::uint32_t, shared::kDepthDigits> counts;
+    std::uint64_t rank = 0; // of the one that is looked for, of those that are counted
+    for (launch.shift = 32; launch.shift > 0;) {
+        launch.shift -= kBitsOfDigit;
+        counts.fill(0);
+        vulkan::upload(context_, depthCounts_, std::as_bytes(std::span(counts)));
+        runPass(DenoisePass::Depths, launch, {groupsFor(launch.pixels, kPixelsOfLane * shared::kDepthDigits), 1, 1});
+        vulkan::download(context_, depthCounts_, std::as_writable_bytes(std::span(counts)));
+        if (launch.mask == 0) {
+            const std::uint64_t all = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+            if (all == 0) return 1;
+            rank = image::usualRank(all);
+        }
+        std::uint32_t digit = 0;
+        for (; rank >= counts[digit]; ++digit) rank -= counts[digit];
+        launch.known |= digit << launch.shift;
+        launch.mask |= (shared::kDepthDigits - 1) << launch.shift;
+    }
+    return std::bit_cast<float>(launch.known);
 }
 
 // ---- filtering -----------------------------------------------------------------------------------------------------
@@ -226,7 +257,7 @@ bool DeviceDenoiser::run(std::uint64_t samplesOfHalf, std::uint32_t dependentSid
     return true;
 }
 
-// Levels go to and fro between the memory of what candidates make of halves and that of halves.
+// In one launch. Levels go to and fro between the memory of what candidates make of halves and that of halves.
 void DeviceDenoiser::runLive() {
     passSeconds_ = {};
     LiveLaunch launch{};
@@ -240,16 +271,23 @@ void DeviceDenoiser::runLive() {
     launch.newTones = guides_.address();
     launch.width = width_;
     launch.height = height_;
-    runPass(DenoisePass::LivePrepare, launch, groups());
     DenoiseLaunch means = makeLaunch();
     means.guides = launch.tones;
     means.use = shared::kMeansToTones;
-    runPass(DenoisePass::Mean, means, groups());
-    for (launch.level = 0; launch.level < shared::kLiveLevels; ++launch.level) {
-        runPass(DenoisePass::Live, launch, groups());
-        std::swap(launch.radiance, launch.newRadiance);
-        std::swap(launch.tones, launch.newTones);
-    }
+    const auto record = [&](VkCommandBuffer commands) {
+        const auto run = [&](DenoisePass pass, const auto& of) {
+            pipelines_.run(commands, pass, of, groups());
+            vulkan::barrier(commands, vulkan::kComputeWrite, context_.bufferUses());
+        };
+        run(DenoisePass::LivePrepare, launch);
+        run(DenoisePass::Mean, means);
+        for (launch.level = 0; launch.level < shared::kLiveLevels; ++launch.level) {
+            run(DenoisePass::Live, launch);
+            std::swap(launch.radiance, launch.newRadiance);
+            std::swap(launch.tones, launch.newTones);
+        }
+    };
+    passSeconds_[static_cast<std::size_t>(DenoisePass::Live)] = context_.runTimed(record);
 }
 
 // ---- results -------------------------------------------------------------------------------------------------------

@@ -22,11 +22,12 @@
 
 namespace rt::gpu {
 
-// In their order, but for means, which are taken of what several of them write. The last two are those of live quality.
-enum class DenoisePass { Prepare, Mean, Features, Fit, Errors, Blend, LivePrepare, Live };
-inline constexpr std::size_t kDenoisePasses = 8;
-inline constexpr std::array<const char*, kDenoisePasses> kDenoisePassNames{"prepare", "mean",  "features",     "fit",
-                                                                           "errors",  "blend", "live_prepare", "live"};
+// In their order, but for means, which are taken of what several of them write. The last two are those of live quality,
+// of which Live has the time of all.
+enum class DenoisePass { Depths, Prepare, Mean, Features, Fit, Errors, Blend, LivePrepare, Live };
+inline constexpr std::size_t kDenoisePasses = 9;
+inline constexpr std::array<const char*, kDenoisePasses> kDenoisePassNames{
+    "depths", "prepare", "mean", "features", "fit", "errors", "blend", "live_prepare", "live"};
 
 // The compiled shaders, for pictures of any size. Each is compiled when it is first needed.
 class DenoisePipelines {
@@ -88,6 +89,7 @@ class DeviceDenoiser {
     void runPass(DenoisePass pass, const Launch& launch, const VkExtent3D& groups);
     shared::DenoiseLaunch makeLaunch() const;
     float usualDepth();
+    float findUsualDepth();
     bool fit(shared::DenoiseLaunch launch, const std::atomic<bool>* cancel);
     void readSums(std::uint32_t dependentSide);
     image::Image read(const vulkan::Buffer& from, std::uint32_t channels, VkDeviceSize firstByte) const;
@@ -98,7 +100,7 @@ class DeviceDenoiser {
     std::size_t pixels_;
     LaunchSize size_;
     vulkan::Buffer halves_; // and, when these have served, the picture of live quality
-    vulkan::Buffer surfaces_, radiance_, guides_, axes_, filtered_, values_, means_, kept_, sums_;
+    vulkan::Buffer surfaces_, radiance_, guides_, axes_, filtered_, values_, means_, kept_, sums_, depthCounts_;
     vulkan::Buffer features_;         // and, when these have served, the pictures of final quality
     std::optional<float> usualDepth_; // of the surfaces, once it was needed
     image::RelMseEstimate relmse_{};

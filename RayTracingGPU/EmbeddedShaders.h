@@ -34,6 +34,7 @@
     X(DenoiseFit, DenoiseFit_comp)                             \
     X(DenoiseErrors, DenoiseErrors_comp)                       \
     X(DenoiseBlend, DenoiseBlend_comp)                         \
+    X(DenoiseDepths, DenoiseDepths_comp)                       \
     X(DenoiseLivePrepare, DenoiseLivePrepare_comp)             \
     X(DenoiseLive, DenoiseLive_comp)                           \
     X(PreviewVertex, Preview_vert)                             \

@@ -10,13 +10,22 @@
 
 namespace rt::gpu {
 
-DeviceDenoiser& GpuDenoiser::of(std::uint32_t width, std::uint32_t height, bool& isNew) {
-    isNew = !picture_ || width_ != width || height_ != height;
-    if (!isNew) return *picture_;
+DeviceDenoiser& GpuDenoiser::of(std::uint32_t width, std::uint32_t height) {
+    if (picture_ && width_ == width && height_ == height) return *picture_;
     width_ = width;
     height_ = height;
+    surfaceSamples_ = 0;
     picture_.reset(); // its memory may be needed
     return picture_.emplace(context_, pipelines_, width, height);
+}
+
+bool GpuDenoiser::provideSurfaces(FilmOnDevice& film, std::uint32_t samples, const std::atomic<bool>& cancel) {
+    if (surfaceSamples_ >= samples) return true;
+    surfaceSamples_ = 0;
+    if (!film.renderSurfaces(samples, picture_->surfaces(), cancel)) return false;
+    picture_->surfacesChanged();
+    surfaceSamples_ = samples;
+    return true;
 }
 
 void GpuDenoiser::report(app::DenoisedPicture& result) const {
@@ -26,13 +35,20 @@ void GpuDenoiser::report(app::DenoisedPicture& result) const {
             result.passes.push_back({kDenoisePassNames[i], seconds});
 }
 
-app::DenoisedPicture GpuDenoiser::denoise(const image::DenoiseInput& input, std::uint32_t dependentSide, bool details) {
+app::DenoisedPicture GpuDenoiser::denoise(const image::DenoiseInput& input, std::uint32_t dependentSide, bool details,
+                                          FilmOnDevice* surfaces) {
+    static const std::atomic<bool> kByNobody = false;
     const app::Stopwatch watch;
-    bool isNew = false;
-    DeviceDenoiser& device = of(input.halfA.width, input.halfA.height, isNew);
-    device.setSurfaces(input.albedo, input.normal, input.depth);
+    const std::atomic<bool>* cancel = interruptionFlag();
+    DeviceDenoiser& device = of(input.halfA.width, input.halfA.height);
+    if (!surfaces) {
+        surfaceSamples_ = 0;
+        device.setSurfaces(input.albedo, input.normal, input.depth);
+    } else if (!provideSurfaces(*surfaces, app::kAovSamples, cancel ? *cancel : kByNobody)) {
+        throw Interrupted();
+    }
     device.setHalves(input.halfA, input.halfB);
-    if (!device.run(input.samplesOfHalf, dependentSide, interruptionFlag())) throw Interrupted();
+    if (!device.run(input.samplesOfHalf, dependentSide, cancel)) throw Interrupted();
     app::DenoisedPicture result;
     result.images = device.read(details);
     report(result);
@@ -69,16 +85,10 @@ class FilmDenoiser final : public app::PictureDenoiser {
 
     std::optional<app::DenoisedPicture> onDevice(const app::DenoiseRequest& request, const std::atomic<bool>& cancel) {
         const app::Stopwatch watch;
-        bool isNew = false;
-        DeviceDenoiser& device = film_.denoiser().of(width_, height_, isNew);
+        DeviceDenoiser& device = film_.denoiser().of(width_, height_);
         const std::uint64_t samplesOfHalf = film_.resolveHalves(device.halves());
         if (samplesOfHalf == 0) return host().denoise(request, cancel); // a part of the film may be on the host
-        if (isNew || surfaceSamples_ < request.featureSamples) {
-            surfaceSamples_ = 0;
-            if (!film_.renderSurfaces(request.featureSamples, device.surfaces(), cancel)) return std::nullopt;
-            device.surfacesChanged();
-            surfaceSamples_ = request.featureSamples;
-        }
+        if (!film_.denoiser().provideSurfaces(film_, request.featureSamples, cancel)) return std::nullopt;
         app::DenoisedPicture result;
         result.quality = request.quality;
         if (request.quality == app::DenoiseQuality::Live) {
@@ -96,7 +106,6 @@ class FilmDenoiser final : public app::PictureDenoiser {
     app::Engine& engine_;
     FilmOnDevice& film_;
     std::uint32_t width_, height_;
-    std::uint32_t surfaceSamples_ = 0;             // of the surfaces that are on the device
     bool hasFailed_ = false;                       // the device, which is not asked again
     std::unique_ptr<app::PictureDenoiser> byHost_; // with the features that it has rendered, once it was needed
 };

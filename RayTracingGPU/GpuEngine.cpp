@@ -63,6 +63,7 @@ class GpuEngine final : public app::Engine, private FilmOnDevice {
     app::Preview renderPreview(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) override;
     std::unique_ptr<app::PictureDenoiser> makeDenoiser() override;
     app::DenoisedPicture denoiseHalves(const image::DenoiseInput& halves, bool details, std::uint32_t threads) override;
+    std::optional<app::DenoisedPicture> denoiseWhole(const image::DenoiseInput& halves, bool details) override;
     app::EngineReport report() const override;
 
   private:
@@ -71,6 +72,9 @@ class GpuEngine final : public app::Engine, private FilmOnDevice {
     std::uint32_t dependentSide() const override { return app::dependentSide(features_); }
     std::uint64_t resolveHalves(const vulkan::Buffer& to) override { return renderer_.resolveHalves(to); }
     bool renderSurfaces(std::uint32_t samples, const vulkan::Buffer& to, const std::atomic<bool>& cancel) override;
+    // Not where the device fails.
+    std::optional<app::DenoisedPicture> denoiseOnDevice(const image::DenoiseInput& halves, bool details,
+                                                        FilmOnDevice* surfaces);
 
     void adopt(const scene::CameraDesc& camera, const app::RenderSettings& settings);
     void makeReady(const scene::CameraDesc& camera);
@@ -110,6 +114,7 @@ void GpuEngine::adopt(const scene::CameraDesc& camera, const app::RenderSettings
     settings_ = settings;
     params_ = app::makeRenderParams(scene_->compiled(), settings);
     renderer_.adopt(settings_, features_, shared::reusesPaths(features_, params_));
+    if (denoiser_) denoiser_->forgetSurfaces();
 }
 
 void GpuEngine::makeReady(const scene::CameraDesc& camera) {
@@ -174,15 +179,25 @@ bool GpuEngine::renderSurfaces(std::uint32_t samples, const vulkan::Buffer& to, 
 
 // The processor does it where the device fails, as for want of memory: it has the halves.
 app::DenoisedPicture GpuEngine::denoiseHalves(const image::DenoiseInput& halves, bool details, std::uint32_t threads) {
-    if (!denoises() || renderer_.hasFailed()) return Engine::denoiseHalves(halves, details, threads);
+    if (auto made = denoiseOnDevice(halves, details, nullptr)) return std::move(*made);
+    return Engine::denoiseHalves(halves, details, threads);
+}
+
+std::optional<app::DenoisedPicture> GpuEngine::denoiseWhole(const image::DenoiseInput& halves, bool details) {
+    return denoiseOnDevice(halves, details, this);
+}
+
+std::optional<app::DenoisedPicture> GpuEngine::denoiseOnDevice(const image::DenoiseInput& halves, bool details,
+                                                               FilmOnDevice* surfaces) {
+    if (!denoises() || renderer_.hasFailed()) return std::nullopt;
     try {
-        return denoiser().denoise(halves, dependentSide(), details);
+        return denoiser().denoise(halves, dependentSide(), details, surfaces);
     } catch (const vulkan::DeviceLostError&) {
         renderer_.giveUpDevice();
     } catch (const RenderError&) {
         denoiser_.reset();
     }
-    return Engine::denoiseHalves(halves, details, threads);
+    return std::nullopt;
 }
 
 app::EngineReport GpuEngine::report() const {

@@ -73,6 +73,17 @@ struct LiveLaunch {
     int level;
 };
 
+// Push constants of DenoiseDepths.comp.
+const uint kDepthDigits = 256u;
+struct DepthLaunch {
+    MutableFloatArray surfaces; // as DenoiseLaunch's
+    MutableWordArray counts;    // of each digit, which are added to
+    uint pixels;
+    uint mask;  // of the bits that are known
+    uint known; // which are these
+    uint shift; // of the digit
+};
+
 // Bordered planes: whole work groups inside of the border.
 RT_FN int denoisePitch(uint width) {
     return (int(width) + kDenoiseColumns - 1) / kDenoiseColumns * kDenoiseColumns + 2 * kDenoiseBorder;

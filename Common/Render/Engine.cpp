@@ -49,4 +49,9 @@ DenoisedPicture Engine::denoiseHalves(const image::DenoiseInput& halves, bool de
     return result;
 }
 
+std::optional<DenoisedPicture> Engine::denoiseWhole(const image::DenoiseInput& halves, bool details) {
+    (void)halves, (void)details;
+    return std::nullopt;
+}
+
 } // namespace rt::app

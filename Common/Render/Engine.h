@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -206,6 +207,9 @@ struct Engine {
     // After reset: filters halves of a picture as image::denoise() does; on the engine's device, if it can. `details`
     // as of a DenoiseRequest; `threads` are those of the processor, 0: as many as it has.
     virtual DenoisedPicture denoiseHalves(const image::DenoiseInput& halves, bool details, std::uint32_t threads);
+    // The same for halves of the whole picture by first-hit features of kAovSamples, made once, that stay on the
+    // engine's device. None where there is no such device, or it failed.
+    virtual std::optional<DenoisedPicture> denoiseWhole(const image::DenoiseInput& halves, bool details);
     virtual EngineReport report() const = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <random>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "Common/Image/Metrics.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "RayTracingGPU/DeviceDenoiser.h"
+#include "RayTracingGPU/EmbeddedShaders.h"
 #include "tests/cross/Device.h"
 
 namespace rt::test {
@@ -163,6 +165,46 @@ TEST_F(DeviceDenoiserTest, TakesWhateverAPictureMayHold) {
     DenoiseInput black;
     black.halfA = black.halfB = Image(20, 20);
     EXPECT_EQ(denoiseOnDevice(black, 1).picture.data, black.halfA.data);
+}
+
+// What the unit of depths is found by, too, where features have never been on the host.
+TEST_F(DeviceDenoiserTest, FindsTheUnitOfDepthsOnTheDevice) {
+    DenoiseInput input = noisyInput(97, 61);
+    std::mt19937 random(3);
+    std::lognormal_distribution<float> depths(0, 4);
+    for (const bool seesSomething : {true, false}) {
+        for (float& depth : input.depth.data) depth = seesSomething ? depths(random) : 0;
+        input.depth.pixel(1, 1)[0] = std::numeric_limits<float>::infinity();
+        input.depth.pixel(2, 1)[0] = std::numeric_limits<float>::quiet_NaN();
+        input.depth.pixel(3, 1)[0] = -1;
+        gpu::DeviceDenoiser denoiser = makeDenoiser(input);
+        ASSERT_TRUE(denoiser.run(1, 1));
+        const Image expected = denoiser.read(false).picture;
+        denoiser.surfacesChanged();
+        ASSERT_TRUE(denoiser.run(1, 1));
+        EXPECT_EQ(denoiser.read(false).picture.data, expected.data);
+        EXPECT_GT(denoiser.passSeconds()[static_cast<std::size_t>(gpu::DenoisePass::Depths)], 0);
+    }
+}
+
+// An array of an invocation that is indexed by a loop lies in memory unless a driver unrolls it, which made these ten
+// times as slow. So they have none, whatever a driver does.
+TEST(DenoiseShaderTest, NoInvocationHasAnArrayWhereTimeGoes) {
+    constexpr std::uint32_t kArray = 28, kStruct = 30, kPointer = 32, kFunction = 7; // of SPIR-V
+    for (const gpu::Shader shader : {gpu::Shader::DenoiseFit, gpu::Shader::DenoiseLive}) {
+        const auto code = gpu::shaderCode(shader);
+        std::set<std::uint32_t> arrays; // types that are or hold some
+        for (std::size_t i = 5; i < code.size(); i += code[i] >> 16) {
+            ASSERT_GT(code[i] >> 16, 0u);
+            const std::uint32_t operation = code[i] & 0xffff;
+            if (operation == kArray) arrays.insert(code[i + 1]);
+            if (operation == kStruct)
+                for (std::size_t member = 2; member < code[i] >> 16; ++member)
+                    if (arrays.count(code[i + member]) > 0) arrays.insert(code[i + 1]);
+            const bool isOfInvocation = operation == kPointer && code[i + 2] == kFunction;
+            EXPECT_FALSE(isOfInvocation && arrays.count(code[i + 3]) > 0);
+        }
+    }
 }
 
 TEST_F(DeviceDenoiserTest, MakesTheLivePictureOfTheCpu) {

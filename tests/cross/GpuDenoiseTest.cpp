@@ -2,6 +2,8 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -20,14 +22,14 @@ const std::atomic<bool> kNever{false};
 class GpuDenoiseTest : public ::testing::Test {
   protected:
     std::unique_ptr<app::Engine> start(bool adaptive = false) {
-        app::RenderSettings settings;
+        app::RenderSettings& settings = settings_;
         settings.width = 52;
         settings.height = 37;
         settings.spp = adaptive ? 64 : 8;
         settings.sppIsKnown = true;
         settings.replicates = 2;
         settings.adaptive = adaptive;
-        const auto scene = app::compile(app::loadScene("cornell-box-lights"), true);
+        const auto scene = scene_ = app::compile(app::loadScene("cornell-box-lights"), true);
         auto engine = gpu::makeGpuEngine(
             device(),
             {.pipelineCache = false, .engine = app::GpuEngineKind::Compute, .denoisesInSoftware = inSoftware_});
@@ -36,6 +38,8 @@ class GpuDenoiseTest : public ::testing::Test {
         return engine;
     }
     bool inSoftware_ = true;
+    app::RenderSettings settings_;
+    std::shared_ptr<const scene::CompiledScene> scene_;
     static void finish(app::Engine& engine) {
         while (!engine.renderSome({}).finished) continue;
     }
@@ -93,6 +97,41 @@ TEST_F(GpuDenoiseTest, FiltersHalvesOfTheHost) {
     EXPECT_TRUE(got.images.error.data.empty());
     EXPECT_LE(image::compare(got.images.picture, expected.images.picture).relmse, 1e-4);
     EXPECT_NEAR(got.images.relmse.value, expected.images.relmse.value, 0.02 * expected.images.relmse.value);
+}
+
+// What --denoise asks for where the picture is whole: features that the host never has, of the camera that is there.
+TEST_F(GpuDenoiseTest, MakesFeaturesOnTheDevice) {
+    const auto engine = start();
+    finish(*engine);
+    const image::DenoiseInput halves = image::filmHalves(engine->film());
+    const auto expectOwnFeatures = [&] {
+        image::DenoiseInput input = halves;
+        app::AovImages features = engine->renderAovs({{true, true, true}}, app::kAovSamples);
+        input.albedo = std::move(features.albedo);
+        input.normal = std::move(features.normal);
+        input.depth = std::move(features.depth);
+        const std::optional<app::DenoisedPicture> got = engine->denoiseWhole(halves, false);
+        ASSERT_TRUE(got);
+        const image::Image expected = engine->Engine::denoiseHalves(input, false, 1).images.picture;
+        EXPECT_LE(image::compare(got->images.picture, expected).relmse, 1e-4);
+    };
+    expectOwnFeatures();
+    const image::Image first = engine->denoiseWhole(halves, false)->images.picture;
+    engine->denoiseHalves(halves, false, 1); // which have none
+    EXPECT_EQ(engine->denoiseWhole(halves, false)->images.picture.data, first.data);
+    scene::CameraDesc camera = scene_->camera;
+    camera.verticalFov /= 2;
+    engine->reset(camera, settings_);
+    expectOwnFeatures();
+    EXPECT_NE(engine->denoiseWhole(halves, false)->images.picture.data, first.data);
+}
+
+TEST_F(GpuDenoiseTest, LeavesFeaturesToTheHostWhereTheProcessorIsTheDevice) {
+    inSoftware_ = false;
+    const auto engine = start();
+    finish(*engine);
+    EXPECT_EQ(engine->denoiseWhole(image::filmHalves(engine->film()), false).has_value(),
+              !device().info().isSoftware());
 }
 
 } // namespace

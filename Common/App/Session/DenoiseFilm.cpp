@@ -51,13 +51,11 @@ image::Denoised FilmDenoiser::denoiseByLibrary(const image::Film& film) {
     return images;
 }
 
-image::Denoised FilmDenoiser::denoise(const image::Film& film) {
-    if (const std::string why = image::whyNoHalves(film); !why.empty()) throw InputError("the film " + why);
-    const Stopwatch watch;
-    const Interruptible byNobody(nullptr); // of a render that was stopped, too, what there is is filtered
-    if (options_.denoisesByOidn) return denoiseByLibrary(film);
+DenoisedPicture FilmDenoiser::filter(image::DenoiseInput& input) {
+    const bool details = options_.wants(Aov::DenoisedError);
+    if (!options_.region)
+        if (auto made = engine_.denoiseWhole(input, details)) return std::move(*made);
     renderFeatures();
-    image::DenoiseInput input = image::filmHalves(film);
     input.albedo = features_->albedo;
     input.normal = features_->normal;
     input.depth = features_->depth;
@@ -66,7 +64,16 @@ image::Denoised FilmDenoiser::denoise(const image::Film& film) {
         for (image::Image* image : {&input.halfA, &input.halfB, &input.albedo, &input.normal, &input.depth})
             *image = cropped(*image, *options_.region);
     }
-    DenoisedPicture filtered = engine_.denoiseHalves(input, options_.wants(Aov::DenoisedError), options_.threads);
+    return engine_.denoiseHalves(input, details, options_.threads);
+}
+
+image::Denoised FilmDenoiser::denoise(const image::Film& film) {
+    if (const std::string why = image::whyNoHalves(film); !why.empty()) throw InputError("the film " + why);
+    const Stopwatch watch;
+    const Interruptible byNobody(nullptr); // of a render that was stopped, too, what there is is filtered
+    if (options_.denoisesByOidn) return denoiseByLibrary(film);
+    image::DenoiseInput input = image::filmHalves(film);
+    DenoisedPicture filtered = filter(input);
     image::Denoised& images = filtered.images;
     if (options_.region)
         for (image::Image* image : {&images.picture, &images.halfA, &images.halfB, &images.error, &images.bandwidth})

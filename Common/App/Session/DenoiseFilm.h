@@ -36,10 +36,11 @@ class FilmDenoiser {
   private:
     void renderFeatures();
     image::Denoised denoiseByLibrary(const image::Film& film);
+    DenoisedPicture filter(image::DenoiseInput& input); // of the region, if there is one
 
     const Options& options_;
     Engine& engine_;
-    std::optional<AovImages> features_; // made once
+    std::optional<AovImages> features_; // made once, where they are not the engine's business
     DenoiseFigures figures_;
 };
 

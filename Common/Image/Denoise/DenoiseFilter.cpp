@@ -163,12 +163,16 @@ class TileFilter {
 
 } // namespace
 
+std::size_t usualRank(std::size_t seen) {
+    return static_cast<std::size_t>(0.95 * static_cast<double>(seen - 1));
+}
+
 float usualDepth(const Image& depth) {
     std::vector<float> seen;
     for (const float d : depth.data)
         if (std::isfinite(d) && d > 0) seen.push_back(d);
     if (seen.empty()) return 1;
-    const auto at = seen.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(seen.size() - 1));
+    const auto at = seen.begin() + static_cast<std::ptrdiff_t>(usualRank(seen.size()));
     std::nth_element(seen.begin(), at, seen.end());
     return *at;
 }

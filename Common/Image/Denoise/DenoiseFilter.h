@@ -27,6 +27,8 @@ struct Halves {
 
 // What nearly all pixels that see something are nearer than; 1 where there are none.
 float usualDepth(const Image& depth);
+// The number of that one among `seen` depths in order.
+std::size_t usualRank(std::size_t seen);
 
 // Fills what is filtered, and the factors.
 void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads);
