@@ -1,6 +1,7 @@
 // An engine that hands every call on to another one.
 #pragma once
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -40,6 +41,9 @@ class ForwardingEngine : public Engine {
     std::unique_ptr<PictureDenoiser> makeDenoiser() override { return engine_->makeDenoiser(); }
     DenoisedPicture denoiseHalves(const image::DenoiseInput& halves, bool details, std::uint32_t threads) override {
         return engine_->denoiseHalves(halves, details, threads);
+    }
+    std::optional<DenoisedPicture> denoiseWhole(const image::DenoiseInput& halves, bool details) override {
+        return engine_->denoiseWhole(halves, details);
     }
     EngineReport report() const override { return engine_->report(); }
 

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -15,6 +17,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Image/Film.h"
 #include "Common/Image/ImageIo.h"
+#include "Common/Render/ForwardingEngine.h"
 #include "Common/Render/PictureDenoiser.h"
 #include "tests/FileBytes.h"
 #include "tests/unit/SessionFixture.h"
@@ -66,6 +69,46 @@ TEST_F(SessionDenoise, TellsWhichDeviceHasFiltered) {
     const nlohmann::json denoised = statistics()["denoised"];
     EXPECT_EQ(denoised["device"], "a device");
     EXPECT_EQ(denoised["device_seconds"]["fit"], 0.25);
+}
+
+// Stands in for one whose features stay on a device.
+class EngineWithFeatures final : public FakeEngine {
+  public:
+    EngineWithFeatures(int& hostFeatures, int& filtered) : hostFeatures_(hostFeatures), filtered_(filtered) {}
+
+    AovImages renderAovs(const AovRequest& request, std::uint32_t samples) override {
+        ++hostFeatures_;
+        return FakeEngine::renderAovs(request, samples);
+    }
+    std::optional<DenoisedPicture> denoiseWhole(const image::DenoiseInput& halves, bool details) override {
+        ++filtered_;
+        EXPECT_TRUE(halves.albedo.data.empty() && halves.normal.data.empty() && halves.depth.data.empty());
+        return FakeEngine::denoiseHalves(halves, details, 1);
+    }
+
+  private:
+    int& hostFeatures_;
+    int& filtered_;
+};
+
+class Forwarded final : public ForwardingEngine {
+  public:
+    explicit Forwarded(std::unique_ptr<Engine> engine) { engine_ = std::move(engine); }
+};
+
+TEST_F(SessionDenoise, LeavesFeaturesWhereTheEngineHasThem) {
+    int hostFeatures = 0, filtered = 0;
+    const auto make = [&] {
+        return std::make_unique<Forwarded>(std::make_unique<EngineWithFeatures>(hostFeatures, filtered));
+    };
+    runSession(options({"--spp", "16", "--denoise", "-o", path("a.pfm")}), make);
+    EXPECT_EQ(hostFeatures, 0);
+    EXPECT_EQ(filtered, 1);
+    run({"--spp", "16", "--denoise", "-o", path("b.pfm")});
+    EXPECT_EQ(test::bytesOfFile(path("a.pfm")), test::bytesOfFile(path("b.pfm")));
+    runSession(options({"--spp", "16", "--denoise", "--region", "0,0,8,8", "-o", path("a.pfm")}), make);
+    EXPECT_EQ(hostFeatures, 1); // of which a part is filtered
+    EXPECT_EQ(filtered, 1);
 }
 
 TEST_F(SessionDenoise, OnlyReplacesTheRawPicture) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -64,6 +65,10 @@ class RankedEngine final : public Engine {
     DenoisedPicture denoiseHalves(const image::DenoiseInput& halves, bool details, std::uint32_t threads) override {
         localRank_.reset();
         return local_->denoiseHalves(halves, details, threads);
+    }
+    std::optional<DenoisedPicture> denoiseWhole(const image::DenoiseInput& halves, bool details) override {
+        localRank_.reset();
+        return local_->denoiseWhole(halves, details);
     }
     EngineReport report() const override;
 
