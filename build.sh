@@ -76,6 +76,15 @@ With VCPKG_ROOT set, libraries come from vcpkg; otherwise from apt (Debian 12 or
 END
 }
 
+# What compiling into a folder will cost, where nothing is compiled yet and nothing was said of it.
+cost_told=
+tell_cost() {
+    [[ ! -e $1/bin && $cost_told != "$1" ]] || return 0
+    cost_told=$1
+    echo "Compiling takes about $((20 / $(nproc) + 1)) min on these $(nproc) processors," \
+        "and half a GB in $1/; $log tells the details"
+}
+
 # Installs those of the given Debian packages that are missing; needs root only then.
 install_packages() {
     if [[ -n ${VCPKG_ROOT:-} ]] || ! command -v apt-get >/dev/null; then
@@ -100,6 +109,7 @@ install_packages() {
     # A failing update (a third party's archive, say) need not concern our packages: the installation tells.
     step "Asking the archive" "${as_root[@]}" sh -c 'apt-get update || true'
     LC_ALL=C "${install[@]}" --assume-no "${missing[@]}" 2>/dev/null | sed -n '/^Need to get/p; /^After this/p' || true
+    case $verb in build | cluster | run | test | bench) tell_cost build ;; esac # before, so that one may say no
     step "Installing" "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive "${install[@]}" --assume-yes "${missing[@]}"
 }
 
@@ -133,10 +143,7 @@ build() {
         fuzz) folder=build/$preset ;;
         asan | tsan | package) folder=build-$preset ;;
     esac
-    if [[ ! -e $folder/bin ]]; then
-        echo "Compiling takes about $((20 / $(nproc) + 1)) min on these $(nproc) processors," \
-            "and half a GB in $folder/; $log tells the details"
-    fi
+    tell_cost "$folder"
     printf 'Compiling ... '
     if ! build_with_progress "$@"; then
         echo failed

@@ -21,9 +21,9 @@ endif()
 
 # Debian asks for an address. example.org is reserved (RFC 2606), so that nobody gets mail in the authors' place: whoever
 # hands packages on gives their own.
-set(RT_PACKAGE_MAINTAINER "Ray Tracing Twins authors <authors@ray-tracing-twins.example.org>"
+set(RT_MAINTAINER "Ray Tracing Twins authors <authors@ray-tracing-twins.example.org>"
     CACHE STRING "Who stands as the maintainer in packages")
-set(CPACK_PACKAGE_CONTACT ${RT_PACKAGE_MAINTAINER})
+set(CPACK_PACKAGE_CONTACT ${RT_MAINTAINER})
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

@@ -55,6 +55,10 @@ expect "before installing" "will be installed"
 expect "before installing" "Need to get 12 MB"
 expect "before compiling" "min on these"
 expect "a line a step" "!asked:"
+# All of that is said before anything is installed, and once.
+before=$(sed '/^Installing/,$d' "$scratch/said")
+[[ $before == *"Need to get 12 MB"*"min on these"*"half a GB"* ]] || expect "before installing" "what compiling costs"
+[[ $(grep -c 'min on these' "$scratch/said") == 1 ]] || expect "what compiling costs" "said once"
 ((status == 0)) || expect "build.sh" "exit code 0, and not $status"
 grep -q 'asked: .*install.*libglfw3-dev' "$scratch/tree/build/build.log" || expect "the log" "what apt was asked for"
 
