@@ -107,8 +107,8 @@ class CpuEngine final : public app::Engine {
         const Clock::time_point start = Clock::now();
         auto prepared = std::make_unique<PreparedScene>();
         const scene::CompiledScene& s = *compiled;
-        const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
-                                      s.triangles, s.geometries,    s.instances};
+        const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,     s.positions,
+                                      s.triangles, s.geometries,    s.instances, s.rounds};
         accel::BuildSettings build;
         build.tree.threads = threads_;
         prepared->accel = accel::CpuAccel::build(input, build, cancel);

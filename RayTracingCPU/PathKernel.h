@@ -96,8 +96,9 @@ constexpr Features kMeshFeatures = kBoxFeatures | kSpheresFeatures | kFeatureTri
 
 constexpr Features kAssetFeatures = kMeshFeatures | kFeatureInstances | kFeaturePrincipled | kFeatureVertexAttributes |
                                     kFeatureImages | kFeatureSkyImage | kFeaturePunctualLights;
-constexpr Features kBookFeatures = kFeatureAll & ~(kFeaturePrincipled | kFeatureVertexAttributes | kFeatureOpacity |
-                                                   kFeatureCoatNormal | kFeaturePunctualLights);
+constexpr Features kBookFeatures =
+    kFeatureAll & ~(kFeaturePrincipled | kFeatureVertexAttributes | kFeatureOpacity | kFeatureCoatNormal |
+                    kFeaturePunctualLights | kRoundFeatures | kRoundLightFeatures);
 
 template <Features kFeatures>
 constexpr Kernel makeKernel(const char* name) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "Common/Accel/Build/PrimitiveBoxes.h"
 #include "Common/Core/Error.h"
 #include "Common/Vulkan/StagingRing.h"
 
@@ -72,6 +73,16 @@ std::vector<VkAabbPositionsKHR> sphereBoxes(const scene::CompiledScene& scene) {
     return boxes;
 }
 
+std::vector<VkAabbPositionsKHR> roundBoxes(const scene::CompiledScene& scene) {
+    std::vector<VkAabbPositionsKHR> boxes;
+    boxes.reserve(scene.rounds.size());
+    for (const shared::Round& round : scene.rounds) {
+        const accel::Box box = accel::boxOf(round);
+        boxes.push_back({box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z});
+    }
+    return boxes;
+}
+
 VkAccelerationStructureGeometryKHR boxGeometry(VkDeviceAddress boxes) {
     VkAccelerationStructureGeometryKHR geometry{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
     geometry.geometryType = VK_GEOMETRY_TYPE_AABBS_KHR;
@@ -113,6 +124,8 @@ void AccelStructure::buildBottomLevels(AccelBuilder& builder, const scene::Compi
                                        const shared::SceneArrays& arrays) {
     const auto quads = vulkan::deviceArray<vec3>(context_, quadVertices(scene), "quads", kBuildInput);
     const auto boxes = vulkan::deviceArray<VkAabbPositionsKHR>(context_, sphereBoxes(scene), "spheres", kBuildInput);
+    const auto rounds =
+        vulkan::deviceArray<VkAabbPositionsKHR>(context_, roundBoxes(scene), "disks and cylinders", kBuildInput);
     std::vector<AccelInput> inputs;
     for (std::uint32_t i = 0; i < scene.geometries.size(); ++i) {
         const shared::Geometry& g = scene.geometries[i];
@@ -136,6 +149,11 @@ void AccelStructure::buildBottomLevels(AccelBuilder& builder, const scene::Compi
             bottomLevels_.push_back({i, shared::kHitRecordSphere});
             const VkDeviceSize offset = VkDeviceSize{g.firstSphere} * sizeof(VkAabbPositionsKHR);
             inputs.push_back({{boxGeometry(boxes.address() + offset)}, {{g.sphereCount, 0, 0, 0}}});
+        }
+        if (g.roundCount > 0) {
+            bottomLevels_.push_back({i, shared::kHitRecordRound});
+            const VkDeviceSize offset = VkDeviceSize{g.firstRound} * sizeof(VkAabbPositionsKHR);
+            inputs.push_back({{boxGeometry(rounds.address() + offset)}, {{g.roundCount, 0, 0, 0}}});
         }
     }
     bottomStorage_ = builder.buildBottomLevels(inputs);

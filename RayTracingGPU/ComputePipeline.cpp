@@ -12,6 +12,7 @@ std::string describe(shared::Features features, bool queries, bool isLinear) {
     if (shared::has(features, shared::kFeatureTriangles)) name += "+triangles";
     if (shared::has(features, shared::kFeatureQuads)) name += "+quads";
     if (shared::has(features, shared::kFeatureSpheres)) name += "+spheres";
+    if (shared::has(features, shared::kRoundFeatures)) name += "+rounds";
     if ((queries || !isLinear) && shared::has(features, shared::kFeatureInstances)) name += "+instances";
     return name;
 }

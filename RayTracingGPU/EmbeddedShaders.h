@@ -25,6 +25,8 @@
     X(QuadHit, RayTracing_Quad_rchit)                          \
     X(SphereHit, RayTracing_Procedural_rchit)                  \
     X(SphereIntersection, RayTracing_Procedural_rint)          \
+    X(RoundHit, RayTracing_Round_rchit)                        \
+    X(RoundIntersection, RayTracing_Round_rint)                \
     X(FilmReduce, FilmReduce_comp)                             \
     X(FilmResolve, FilmResolve_comp)                           \
     X(SampleList, SampleList_comp)                             \

@@ -58,8 +58,8 @@ std::vector<app::EngineRate> ratesIn(const Json& all, const std::string& key) {
 }
 
 std::uint32_t sizeClass(const scene::CompiledScene& scene) {
-    const std::size_t primitives =
-        scene.spheres.size() + scene.quads.size() + scene.triangles.size() + scene.instances.size();
+    const std::size_t primitives = scene.spheres.size() + scene.quads.size() + scene.triangles.size() +
+                                   scene.rounds.size() + scene.instances.size();
     if (scene.instances.empty() && primitives <= accel::GpuBvhSettings().maxLinear) return 0;
     return static_cast<std::uint32_t>(std::bit_width(primitives));
 }

@@ -37,8 +37,8 @@ GpuScene::GpuScene(vulkan::VulkanContext& context, app::GpuEngineKind engine,
 void GpuScene::buildTree(vulkan::VulkanContext& context, const std::atomic<bool>* cancel) {
     const app::Stopwatch watch;
     const scene::CompiledScene& s = *compiled_;
-    const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
-                                  s.triangles, s.geometries,    s.instances};
+    const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,     s.positions,
+                                  s.triangles, s.geometries,    s.instances, s.rounds};
     const std::optional<accel::GpuBvh> bvh = accel::buildGpuBvh(input, {}, cancel);
     if (!bvh) return;
     buildSeconds_ = watch.seconds();
@@ -51,6 +51,7 @@ void GpuScene::buildTree(vulkan::VulkanContext& context, const std::atomic<bool>
     tree_.sphereIndices = add(context, t.sphereIndices, "the tree's spheres");
     tree_.quads = add(context, t.quads, "the tree's quads");
     tree_.triangles = add(context, t.triangles, "the tree's triangles");
+    tree_.rounds = add(context, t.rounds, "the tree's disks and cylinders");
     tree_.instanceRoots = add(context, t.instanceRoots, "the tree's instances");
     tree_.root = t.root;
 

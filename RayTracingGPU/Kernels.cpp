@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "Common/Shared/Light/RoundLight.h"
 #include "Common/Shared/Material/Materials.h"
 #include "RayTracingGPU/ComputePipeline.h"
 #include "RayTracingGPU/RtPipeline.h"
@@ -15,7 +16,7 @@ constexpr std::uint32_t kSoftInvocations = 1u << 14; // fill the largest process
 // What only the full shaders have, see RT_HEAVY_FEATURES in Common/Shared/Base/Shim.h.
 constexpr shared::Features kHeavyFeatures = shared::kMethodProjected | shared::kFeaturePrincipled |
                                             shared::kFeatureOpacity | shared::kFeatureCoatNormal |
-                                            shared::kMethodConnections;
+                                            shared::kMethodConnections | shared::kRoundLightFeatures;
 
 // The first of a purpose's kernels; the others follow it by engine, see RT_GPU_KERNELS.
 Shader firstOf(KernelPurpose purpose, bool heavy) {

@@ -119,6 +119,7 @@ void PreviewPass::listDraws() {
         add(shared::kSphere, geometry.firstSphere, geometry.sphereCount, 36);
         add(shared::kQuad, geometry.firstQuad, geometry.quadCount, 6);
         add(shared::kTriangle, geometry.firstTriangle, geometry.triangleCount, 3);
+        add(shared::kRound, geometry.firstRound, geometry.roundCount, 36);
     }
     std::sort(draws_.begin(), draws_.end(), [](const Draw& a, const Draw& b) { return a.shape < b.shape; });
     indices_ = vulkan::deviceArray<std::uint32_t>(context_, indices, "the preview");
@@ -157,12 +158,13 @@ vulkan::Handle<VkPipeline> PreviewPass::createDrawing(const vulkan::PipelineCach
     depth.depthTestEnable = depth.depthWriteEnable = VK_TRUE;
     depth.depthCompareOp = VK_COMPARE_OP_GREATER; // near over distance: floats are fine where it is small
     vulkan::Rasterization rasterization;
-    // Of a cube around a sphere the far faces are drawn: they are there when the camera is in the cube, too.
-    rasterization.cull = shape == shared::kSphere ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_NONE;
+    // Of a box around a sphere, disk or cylinder the far faces are drawn: they are there when the camera is in it, too.
+    const bool isInBox = shape == shared::kSphere || shape == shared::kRound;
+    rasterization.cull = isInBox ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_NONE;
     rasterization.depth = &depth;
     rasterization.samples = kPreviewSampleBit;
     // Outlines that fragments find, and not the edges of primitives.
-    rasterization.shadesSamples = shape == shared::kSphere || shared::has(features_, shared::kFeatureOpacity);
+    rasterization.shadesSamples = isInBox || shared::has(features_, shared::kFeatureOpacity);
     return vulkan::makeGraphicsPipeline(device, cache.get(), layout_.get(), clearing_.get(), stages, rasterization,
                                         kWhat);
 }

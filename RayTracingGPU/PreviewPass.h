@@ -54,7 +54,7 @@ class PreviewPass {
     vulkan::DescriptorSet bindings_;
     vulkan::Handle<VkPipelineLayout> layout_;
     vulkan::Handle<VkRenderPass> clearing_, goingOn_;   // compatible render passes
-    std::array<vulkan::Handle<VkPipeline>, 3> drawing_; // by shape: kSphere, kQuad, kTriangle
+    std::array<vulkan::Handle<VkPipeline>, 4> drawing_; // by shape: kSphere, kQuad, kTriangle, kRound
     vulkan::Handle<VkPipeline> finishing_;
     PreviewTarget target_;
     LaunchSize vertices_; // of a submission, whose samples they are

@@ -86,6 +86,10 @@ ShaderGroups addGroups(GroupList& list, const SpecializationConstants& constants
         groups.hit[shared::kHitRecordSphere] = list.addProcedural(Shader::SphereHit, Shader::SphereIntersection);
         name += "+spheres";
     }
+    if (shared::has(features, shared::kRoundFeatures)) {
+        groups.hit[shared::kHitRecordRound] = list.addProcedural(Shader::RoundHit, Shader::RoundIntersection);
+        name += "+rounds";
+    }
     groups.count = static_cast<std::uint32_t>(list.groups().size());
     return groups;
 }

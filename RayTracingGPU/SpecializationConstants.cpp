@@ -38,6 +38,7 @@ constexpr std::array kEntries{
     entry(shared::kListedCuboidsId, kTraversal + offsetof(TraversalShape, listedCuboids)),
     entry(shared::kListedQuadsId, kTraversal + offsetof(TraversalShape, listedQuads)),
     entry(shared::kListedTrianglesId, kTraversal + offsetof(TraversalShape, listedTriangles)),
+    entry(shared::kListedRoundsId, kTraversal + offsetof(TraversalShape, listedRounds)),
 };
 
 // Whether every member has an entry, and no two entries an id or a member in common.
@@ -65,6 +66,7 @@ TraversalShape traversalShape(const accel::GpuBvh& bvh) {
     shape.listedCuboids = bvh.lists.cuboids;
     shape.listedQuads = bvh.lists.quads;
     shape.listedTriangles = bvh.lists.triangles;
+    shape.listedRounds = bvh.lists.rounds;
     return shape;
 }
 

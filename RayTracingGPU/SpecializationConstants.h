@@ -24,6 +24,7 @@ struct TraversalShape {
     std::uint32_t listedCuboids = 0;
     std::uint32_t listedQuads = 0; // all others
     std::uint32_t listedTriangles = 0;
+    std::uint32_t listedRounds = 0;
     bool operator==(const TraversalShape&) const = default;
 };
 

@@ -1,6 +1,7 @@
 // Where a primitive of an acceleration structure stands in the scene.
 #include "Bindings.glsl"
 #include "Common/Shared/Medium/Media.h"
+#include "Common/Shared/Shape/Rounds.h"
 #include "Common/Shared/Shape/Shapes.h"
 
 // Of an instance with this custom index. They are numbered from 1 in the acceleration structure; the world's own
@@ -15,6 +16,7 @@ Geometry geometryOf(uint instance) {
     none.firstSphere = 0u;
     none.firstQuad = 0u;
     none.firstTriangle = 0u;
+    none.firstRound = 0u;
     if (!has(kFeatures, kFeatureInstances)) return none;
     return constants.arrays.geometries.at[instance == kNone ? 0u : constants.arrays.instances.at[instance].geometry];
 }
@@ -39,6 +41,12 @@ float sphereHit(Ray ray, uint instance, uint index, float tMax) {
     Ray local = objectRay(ray, instance);
     float inverseSquaredLength = 1.0f / dot(local.direction, local.direction);
     return intersectSphere(local, inverseSquaredLength, sphere.center, sphere.radius, sphere.power, tMax);
+}
+
+// The same of a disk or cylinder.
+float roundHit(Ray ray, uint instance, uint index, float tMax) {
+    Round r = constants.arrays.rounds.at[index];
+    return intersectRound(objectRay(ray, instance), r.origin, roundFrame(r.edgeU, r.edgeV, r.axis), r.hole, tMax);
 }
 
 // (u, v) of a hit of one of the two triangles that a quad is in the acceleration structure; `weights` of the vertices 1

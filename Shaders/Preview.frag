@@ -9,13 +9,17 @@ layout(location = 0) in vec2 weights;
 layout(location = 1) flat in uvec2 place;
 layout(location = 0) out vec4 color; // radiance, distance
 
-// The ray's parameter where it meets the sphere; negative: nowhere.
-float sphereDistance(SceneRef scene, Ray ray) {
+// The ray's parameter where it meets the sphere, disk or cylinder; negative: nowhere.
+float shapeDistance(SceneRef scene, Ray ray) {
     Ray local = ray;
     if (has(kFeatures, kFeatureInstances) && place.y != kNone) {
         Instance instance = loadInstance(scene, place.y);
         local.origin = transformPoint(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.origin);
         local.direction = transformVector(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.direction);
+    }
+    if (kShape == kRound) {
+        Round r = loadRound(scene, place.x);
+        return intersectRound(local, r.origin, roundFrame(r.edgeU, r.edgeV, r.axis), r.hole, kInfinity);
     }
     Sphere sphere = loadSphere(scene, place.x);
     return intersectSphere(local, sphere.center, sphere.radius, kInfinity);
@@ -57,13 +61,14 @@ void main() {
     hit.instance = place.y;
     hit.u = weights.x;
     hit.v = weights.y;
-    if (kShape == kSphere) {
-        hit.t = sphereDistance(scene, ray);
+    bool isInBox = kShape == kSphere || kShape == kRound;
+    if (isInBox) {
+        hit.t = shapeDistance(scene, ray);
         if (hit.t < 0.0f) discard;
     }
     Surface surface = makeSurface(kFeatures, scene, ray, hit);
     if (has(kFeatures, kFeatureOpacity) && isClear(scene, surface)) discard;
-    float t = kShape == kSphere ? hit.t : dot(surface.position - ray.origin, ray.direction);
+    float t = isInBox ? hit.t : dot(surface.position - ray.origin, ray.direction);
     gl_FragDepth = launch.near / dot(launch.clipW, vec4(ray.origin + t * ray.direction, 1.0f));
     color = vec4(surfaceRadiance(scene, surface, -ray.direction), t);
 }

@@ -26,12 +26,13 @@ vec3 unshadowedLight(Light light, vec3 position, vec3 normal) {
     vec3 middle = light.position;
     if (light.kind == kLightQuad) middle += 0.5f * (light.edgeU + light.edgeV);
     if (light.kind == kLightTriangle) middle += (light.edgeU + light.edgeV) / 3.0f;
+    if (light.kind == kLightCylinder) middle += 0.5f * light.normal;
     vec3 toLight = middle - position;
     float squared = max(dot(toLight, toLight), 1.0e-30f);
     vec3 direction = toLight * inversesqrt(squared);
     float facing = isSurface(normal) ? max(dot(normal, direction), 0.0f) : 0.25f;
-    bool isRound = light.kind == kLightSphere || light.kind == kLightEllipsoid;
-    if (isRound) return light.emission * (facing * min(light.radius * light.radius / squared, 1.0f));
+    bool isFlat = light.kind == kLightQuad || light.kind == kLightTriangle || light.kind == kLightDisk;
+    if (!isFlat) return light.emission * (facing * min(light.radius * light.radius / squared, 1.0f));
     float leaving = -dot(light.normal, direction);
     float seen = light.area * (light.sides == kSidesBoth ? abs(leaving) : max(leaving, 0.0f));
     return light.emission * (facing * seen / (seen + kPi * squared));

@@ -14,15 +14,23 @@ uint hitRecord(rayQueryEXT query) {
            uint(rayQueryGetIntersectionGeometryIndexEXT(query, true));
 }
 
-// Tests the sphere in whose box the query has stopped. All else that is there is opaque triangles.
+// Tests the sphere, disk or cylinder in whose box the query has stopped. All else that is there is opaque triangles.
 void testCandidate(rayQueryEXT query, Ray ray, float tMax) {
     uint instance = instanceOf(uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, false)));
-    uint index = geometryOf(instance).firstSphere + uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
+    Geometry geometry = geometryOf(instance);
+    uint place = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
     float nearest = tMax;
     if (rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT) {
         nearest = rayQueryGetIntersectionTEXT(query, true);
     }
-    float t = sphereHit(ray, instance, index, nearest);
+    bool isRound = has(kFeatures, kRoundFeatures) &&
+                   rayQueryGetIntersectionInstanceShaderBindingTableRecordOffsetEXT(query, false) == kHitRecordRound;
+    float t = 0.0f;
+    if (isRound) {
+        t = roundHit(ray, instance, geometry.firstRound + place, nearest);
+    } else if (has(kFeatures, kFeatureSpheres)) {
+        t = sphereHit(ray, instance, geometry.firstSphere + place, nearest);
+    }
     if (t > 0.0f) rayQueryGenerateIntersectionEXT(query, t);
 }
 
@@ -34,7 +42,7 @@ Hit traceRay(Ray ray, bool anyHit, float tMax) {
     rayQueryEXT query;
     rayQueryInitializeEXT(query, topLevel, flags, 0xffu, ray.origin, 0.0f, ray.direction, tMax);
     while (rayQueryProceedEXT(query)) {
-        if (has(kFeatures, kFeatureSpheres)) testCandidate(query, ray, tMax);
+        if (has(kFeatures, kFeatureSpheres | kRoundFeatures)) testCandidate(query, ray, tMax);
     }
     Hit hit;
     hit.t = -1.0f;
@@ -50,7 +58,9 @@ Hit traceRay(Ray ray, bool anyHit, float tMax) {
     Geometry geometry = geometryOf(hit.instance);
     uint primitive = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, true));
     if (type == gl_RayQueryCommittedIntersectionGeneratedEXT) {
-        hit.primitive = geometry.firstSphere + primitive;
+        bool isRound = has(kFeatures, kRoundFeatures) && hitRecord(query) == kHitRecordRound;
+        hit.kind = isRound ? kRound : kSphere;
+        hit.primitive = (isRound ? geometry.firstRound : geometry.firstSphere) + primitive;
         return hit;
     }
     vec2 weights = rayQueryGetIntersectionBarycentricsEXT(query, true);

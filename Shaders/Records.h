@@ -49,6 +49,7 @@ RT_VECTOR_ARRAY(TreeNodeArray, TreeNode)
 RT_VECTOR_ARRAY(WideTreeNodeArray, WideTreeNode)
 RT_VECTOR_ARRAY(TreeQuadArray, TreeQuad)
 RT_VECTOR_ARRAY(TreeTriangleArray, TreeTriangle)
+RT_VECTOR_ARRAY(TreeRoundArray, TreeRound)
 RT_VECTOR_ARRAY(FourArray, vec4)
 
 // The tree of the compute engine, see Common/Shared/TreeRecords.h; zero without one.
@@ -60,6 +61,7 @@ struct TreeArrays {
     WordArray sphereIndices; // of each of them in the scene
     TreeQuadArray quads;
     TreeTriangleArray triangles;
+    TreeRoundArray rounds;
     WordArray instanceRoots; // of each instance
     uint root;
     uint unused; // C++ ends records of addresses at a multiple of 8 bytes, scalar layout does not
@@ -326,7 +328,8 @@ struct PreviewLaunch {
 const uint kHitRecordTriangle = 0u;
 const uint kHitRecordQuad = 1u;
 const uint kHitRecordSphere = 2u;
-const uint kHitRecords = 3u;
+const uint kHitRecordRound = 3u;
+const uint kHitRecords = 4u;
 
 // ---- rays ----------------------------------------------------------------------------------------------------------
 

@@ -28,6 +28,7 @@ const uint kListedYQuadsId = 14u;
 const uint kListedZQuadsId = 15u;
 const uint kListedQuadsId = 16u;
 const uint kListedTrianglesId = 17u;
+const uint kListedRoundsId = 25u;
 const uint kTreeIsWideId = 19u;
 const uint kListedCuboidsId = 21u;
 // Of the preview, see Preview.glsl.

@@ -43,6 +43,14 @@ ShapeHit testTriangle(TracedRay r, vec4 vertex0, vec4 vertex1, vec4 vertex2, flo
     return intersectTriangle(r.ray.origin, r.triangleRay, vertex0.xyz, vertex1.xyz, vertex2.xyz, tMax);
 }
 
+float testRound(TracedRay r, vec4 origin, vec4 dualU, vec4 dualV, vec4 dualW, float tMax) {
+    RoundFrame frame;
+    frame.dualU = dualU.xyz;
+    frame.dualV = dualV.xyz;
+    frame.dualW = dualW.xyz;
+    return intersectRound(r.ray, origin.xyz, frame, origin.w, tMax);
+}
+
 // The nearest hit so far.
 struct Nearest {
     float t;
@@ -65,6 +73,13 @@ void acceptSphere(inout Nearest nearest, float t, uint place) {
     if (!(t > 0.0f)) return;
     nearest.t = t;
     nearest.kind = kSphere;
+    nearest.place = place;
+}
+
+void acceptRound(inout Nearest nearest, float t, uint place) {
+    if (!(t > 0.0f)) return;
+    nearest.t = t;
+    nearest.kind = kRound;
     nearest.place = place;
 }
 

@@ -2,6 +2,7 @@
 // hits anything, because lanes of a group ask both at a time.
 #include "Bindings.glsl"
 #include "Common/Shared/Medium/Media.h"
+#include "Common/Shared/Shape/Rounds.h"
 #include "Common/Shared/Shape/Shapes.h"
 #include "TracedRay.glsl"
 #include "TraverseLists.glsl"

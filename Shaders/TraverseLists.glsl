@@ -7,6 +7,7 @@ layout(constant_id = kListedZQuadsId) const uint kListedZQuads = 0u;
 layout(constant_id = kListedCuboidsId) const uint kListedCuboids = 0u;
 layout(constant_id = kListedQuadsId) const uint kListedQuads = 0u;
 layout(constant_id = kListedTrianglesId) const uint kListedTriangles = 0u;
+layout(constant_id = kListedRoundsId) const uint kListedRounds = 0u;
 
 layout(set = 0, binding = 2, scalar) uniform LinearLists { vec4 listVectors[kListVectors]; };
 
@@ -113,6 +114,15 @@ Hit traceLinear(Ray ray, bool anyHit, float tMax) {
             vec4 vertex = listVectors[at];
             ShapeHit hit = testTriangle(r, vertex, listVectors[at + 1u], listVectors[at + 2u], nearest.t);
             accept(nearest, hit, kTriangle, floatBitsToUint(vertex.w));
+        }
+    }
+    if (has(kFeatures, kRoundFeatures)) {
+        first += 4u * kListedQuads + 3u * kListedTriangles;
+        for (uint i = 0u; i < kListedRounds; i++) {
+            uint at = first + 4u * i;
+            vec4 dualU = listVectors[at + 1u];
+            float t = testRound(r, listVectors[at], dualU, listVectors[at + 2u], listVectors[at + 3u], nearest.t);
+            acceptRound(nearest, t, floatBitsToUint(dualU.w));
         }
     }
     Hit hit;

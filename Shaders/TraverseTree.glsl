@@ -76,6 +76,11 @@ bool isTreeNode(uint reference) {
     return (reference & kTreeLeaf) == 0u;
 }
 
+// Of a leaf of any kind.
+bool isInstanceLeaf(uint leaf) {
+    return treeLeafKind(leaf) == kInstanceLeaf && !(has(kFeatures, kRoundFeatures) && isRoundLeaf(leaf));
+}
+
 void testLeaf(TracedRay r, uint leaf, inout Nearest nearest) {
     uint first = treeLeafFirst(leaf);
     uint end = first + treeLeafCount(leaf);
@@ -100,6 +105,11 @@ void testLeaf(TracedRay r, uint leaf, inout Nearest nearest) {
                                       : testSphere(r, sphere, motion, nearest.t);
             acceptSphere(nearest, t, i);
         }
+    } else if (has(kFeatures, kRoundFeatures) && kind == kRound) {
+        for (uint i = first; i < end - 1u; i++) {
+            TreeRound round = constants.tree.rounds.at[i];
+            acceptRound(nearest, testRound(r, round.origin, round.dualU, round.dualV, round.dualW, nearest.t), i);
+        }
     }
 }
 
@@ -108,6 +118,9 @@ uint primitiveAt(uint kind, uint place) {
         return floatBitsToUint(constants.tree.triangles.at[place].vertex0.w);
     }
     if (has(kFeatures, kFeatureQuads) && kind == kQuad) return floatBitsToUint(constants.tree.quads.at[place].normal.w);
+    if (has(kFeatures, kRoundFeatures) && kind == kRound) {
+        return floatBitsToUint(constants.tree.rounds.at[place].dualU.w);
+    }
     return constants.tree.sphereIndices.at[place];
 }
 
@@ -171,7 +184,7 @@ Hit traceTree(Ray ray, bool anyHit, float tMax) {
             r = makeTracedRay(ray, true);
             inverse = slabInverse(ray.direction);
             current = stack[--size];
-        } else if (has(kFeatures, kFeatureInstances) && treeLeafKind(current) == kInstanceLeaf) {
+        } else if (has(kFeatures, kFeatureInstances) && isInstanceLeaf(current)) {
             instance = treeLeafFirst(current);
             stack[size++] = kTreeReturn;
             r = makeTracedRay(toObject(instance, ray), false);

@@ -15,6 +15,7 @@ struct AccelInput {
     std::span<const shared::uvec3> triangles;
     std::span<const shared::Geometry> geometries; // [0] is the world's own
     std::span<const shared::Instance> instances;
+    std::span<const shared::Round> rounds{};
 };
 
 } // namespace rt::accel

@@ -13,12 +13,14 @@ struct AccelStorage {
     LargeArray<MovingSphereBlock> movingSpheres;
     LargeArray<QuadBlock> quads;
     LargeArray<TriangleBlock> triangles;
+    LargeArray<RoundBlock> rounds;
     LargeArray<PlacedGeometry> instances;
     LargeArray<SphereBlock> listedSpheres;
     LargeArray<NearSphereBlock> listedNearSpheres;
     LargeArray<MovingSphereBlock> listedMovingSpheres;
     LargeArray<QuadBlock> listedQuads;
     LargeArray<TriangleBlock> listedTriangles;
+    LargeArray<RoundBlock> listedRounds;
 };
 
 } // namespace rt::accel

@@ -19,8 +19,8 @@ inline constexpr std::uint32_t kMaxTreeDepth = 64;
 //   bit 31: leaf    30..28: kind    27..25: blocks - 1    24..0: index of the first block
 using Reference = std::uint32_t;
 
-enum class LeafKind : std::uint32_t { Sphere, NearSphere, MovingSphere, Quad, Triangle, Instance };
-inline constexpr std::uint32_t kLeafKinds = 6;
+enum class LeafKind : std::uint32_t { Sphere, NearSphere, MovingSphere, Quad, Triangle, Round, Instance };
+inline constexpr std::uint32_t kLeafKinds = 7;
 
 inline constexpr Reference kLeafBit = 1u << 31;
 inline constexpr std::uint32_t kKindShift = 28;
@@ -87,6 +87,16 @@ struct alignas(32) TriangleBlock {
     std::uint32_t primitive[kWidth];
 };
 
+// See shared::RoundFrame.
+struct alignas(32) RoundBlock {
+    float origin[3][kWidth];
+    float dualU[3][kWidth];
+    float dualV[3][kWidth];
+    float dualW[3][kWidth];
+    float hole[kWidth];
+    std::uint32_t primitive[kWidth];
+};
+
 struct PlacedGeometry {
     shared::vec4 toObject[3]; // rows, as in shared::Instance
     Reference root;
@@ -119,6 +129,7 @@ struct AccelView {
     LinearList<MovingSphereBlock> listedMovingSpheres;
     LinearList<QuadBlock> listedQuads;
     LinearList<TriangleBlock> listedTriangles;
+    LinearList<RoundBlock> listedRounds;
 
     Reference root = 0; // of the world: its own primitives and the instances
     const WideNode* nodes = nullptr;
@@ -129,6 +140,7 @@ struct AccelView {
     const MovingSphereBlock* movingSpheres = nullptr;
     const QuadBlock* quads = nullptr;
     const TriangleBlock* triangles = nullptr;
+    const RoundBlock* rounds = nullptr;
     const PlacedGeometry* instances = nullptr;
 };
 

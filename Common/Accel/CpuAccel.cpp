@@ -56,6 +56,8 @@ void fillLists(AccelStorage& storage, const AccelInput& input, const shared::Geo
     view.listedQuads = fillList(storage.listedQuads, input, shared::kQuad, indices(world.firstQuad, world.quadCount));
     view.listedTriangles =
         fillList(storage.listedTriangles, input, shared::kTriangle, indices(world.firstTriangle, world.triangleCount));
+    view.listedRounds =
+        fillList(storage.listedRounds, input, shared::kRound, indices(world.firstRound, world.roundCount));
 }
 
 // Lanes go as blocks come: these are the last large arrays, and nothing else is as much memory as they are.
@@ -136,7 +138,9 @@ void Assembly::fill(AccelStorage& storage) {
     storage.nodes = LargeArray<WideNode>(std::exchange(nodes_, {}));
     storage.quantizedNodes = LargeArray<QuantizedNode>(std::exchange(quantized_.nodes, {}));
     // That of the trees, which were copied, and of what it took to build them.
-    if (input_.spheres.size() + input_.quads.size() + input_.triangles.size() > kManyPrimitives) releaseFreedMemory();
+    const std::size_t primitives =
+        input_.spheres.size() + input_.quads.size() + input_.triangles.size() + input_.rounds.size();
+    if (primitives > kManyPrimitives) releaseFreedMemory();
     const auto fillKind = [&]<class Block>(LargeArray<Block>& blocks, LeafKind kind) {
         blocks =
             fillBlocks<Block>(std::move(lanes_.of[static_cast<std::uint32_t>(kind)]), input_, settings_.tree.threads);
@@ -146,6 +150,7 @@ void Assembly::fill(AccelStorage& storage) {
     fillKind(storage.movingSpheres, LeafKind::MovingSphere);
     fillKind(storage.quads, LeafKind::Quad);
     fillKind(storage.triangles, LeafKind::Triangle);
+    fillKind(storage.rounds, LeafKind::Round);
     storage.instances = placeInstances();
 }
 
@@ -156,6 +161,7 @@ shared::Features featuresOf(const AccelInput& input) {
     }
     if (!input.quads.empty()) features |= shared::kFeatureQuads;
     if (!input.triangles.empty()) features |= shared::kFeatureTriangles;
+    if (!input.rounds.empty()) features |= shared::kRoundFeatures;
     if (!input.instances.empty()) features |= shared::kFeatureInstances;
     return features;
 }
@@ -173,7 +179,8 @@ std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSe
     view.kinds = featuresOf(input);
 
     const shared::Geometry world = input.geometries[0];
-    const std::uint64_t primitives = std::uint64_t{world.sphereCount} + world.quadCount + world.triangleCount;
+    const std::uint64_t primitives =
+        std::uint64_t{world.sphereCount} + world.quadCount + world.triangleCount + world.roundCount;
     view.isLinear = input.instances.empty() && (primitives == 0 || primitives <= settings.maxLinear);
     if (view.isLinear) {
         fillLists(storage, input, world, view);
@@ -195,6 +202,7 @@ std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSe
     view.movingSpheres = storage.movingSpheres.data();
     view.quads = storage.quads.data();
     view.triangles = storage.triangles.data();
+    view.rounds = storage.rounds.data();
     view.instances = storage.instances.data();
     return accel;
 }
@@ -202,9 +210,9 @@ std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSe
 std::size_t CpuAccel::bytes() const {
     const AccelStorage& s = *storage_;
     return sizeof(*this) + sizeof(s) + s.nodes.bytes() + s.quantizedNodes.bytes() + s.spheres.bytes() +
-           s.nearSpheres.bytes() + s.movingSpheres.bytes() + s.quads.bytes() + s.triangles.bytes() +
-           s.instances.bytes() + s.listedSpheres.bytes() + s.listedNearSpheres.bytes() + s.listedMovingSpheres.bytes() +
-           s.listedQuads.bytes() + s.listedTriangles.bytes();
+           s.nearSpheres.bytes() + s.movingSpheres.bytes() + s.quads.bytes() + s.triangles.bytes() + s.rounds.bytes() +
+           s.listedRounds.bytes() + s.instances.bytes() + s.listedSpheres.bytes() + s.listedNearSpheres.bytes() +
+           s.listedMovingSpheres.bytes() + s.listedQuads.bytes() + s.listedTriangles.bytes();
 }
 
 } // namespace rt::accel

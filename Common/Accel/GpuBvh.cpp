@@ -12,6 +12,7 @@
 #include "Common/Accel/Build/SceneTrees.h"
 #include "Common/Accel/Cuboids.h"
 #include "Common/Core/Error.h"
+#include "Common/Shared/Shape/Rounds.h"
 #include "Common/Shared/Shape/Shapes.h"
 
 namespace rt::accel {
@@ -22,6 +23,7 @@ using shared::vec4;
 
 static_assert(sizeof(shared::TreeNode) == 64 && sizeof(shared::WideTreeNode) == 128);
 static_assert(sizeof(shared::TreeQuad) == 64 && sizeof(shared::TreeTriangle) == 48);
+static_assert(sizeof(shared::TreeRound) == 64);
 
 // ---- primitives ----------------------------------------------------------------------------------------------------
 
@@ -45,6 +47,13 @@ shared::TreeTriangle triangleRecord(const AccelInput& input, std::uint32_t index
     const shared::uvec3 v = input.triangles[index];
     return {vec4(input.positions[v.x], std::bit_cast<float>(index)), vec4(input.positions[v.y], 0.0f),
             vec4(input.positions[v.z], 0.0f)};
+}
+
+shared::TreeRound roundRecord(const AccelInput& input, std::uint32_t index) {
+    const shared::Round& round = input.rounds[index];
+    const shared::RoundFrame frame = shared::roundFrame(round.edgeU, round.edgeV, round.axis);
+    return {vec4(round.origin, round.hole), vec4(frame.dualU, std::bit_cast<float>(index)), vec4(frame.dualV, 0.0f),
+            vec4(frame.dualW, 0.0f)};
 }
 
 // ---- lists ---------------------------------------------------------------------------------------------------------
@@ -93,6 +102,7 @@ LinearLists makeLists(const AccelInput& input, const shared::Geometry& world) {
     LinearLists lists;
     lists.spheres = world.sphereCount;
     lists.triangles = world.triangleCount;
+    lists.rounds = world.roundCount;
     const auto add = [&](std::initializer_list<vec4> vectors) {
         lists.vectors.insert(lists.vectors.end(), vectors.begin(), vectors.end());
     };
@@ -128,6 +138,10 @@ LinearLists makeLists(const AccelInput& input, const shared::Geometry& world) {
     for (std::uint32_t i = 0; i < world.triangleCount; ++i) {
         const shared::TreeTriangle triangle = triangleRecord(input, world.firstTriangle + i);
         add({triangle.vertex0, triangle.vertex1, triangle.vertex2});
+    }
+    for (std::uint32_t i = 0; i < world.roundCount; ++i) {
+        const shared::TreeRound round = roundRecord(input, world.firstRound + i);
+        add({round.origin, round.dualU, round.dualV, round.dualW});
     }
     return lists;
 }
@@ -183,6 +197,10 @@ std::uint32_t Flattener::addLeaf(const SceneTree& tree, const BvhNode& leaf) {
             return append(shared::kQuad, trees_.quads, quadRecord);
         case LeafKind::Triangle:
             return append(shared::kTriangle, trees_.triangles, triangleRecord);
+        case LeafKind::Round: {
+            const std::uint32_t all = append(shared::kRound, trees_.rounds, roundRecord);
+            return shared::roundLeaf(shared::treeLeafFirst(all), leaf.count);
+        }
         case LeafKind::Instance:
             return shared::treeLeaf(shared::kInstanceLeaf, tree.items.index(items[0]), 1);
         case LeafKind::Sphere:
@@ -302,7 +320,8 @@ std::optional<GpuBvh> buildGpuBvh(const AccelInput& input, const GpuBvhSettings&
                                   const std::atomic<bool>* cancel) {
     GpuBvh bvh;
     const shared::Geometry& world = input.geometries[0];
-    const std::uint64_t primitives = std::uint64_t{world.sphereCount} + world.quadCount + world.triangleCount;
+    const std::uint64_t primitives =
+        std::uint64_t{world.sphereCount} + world.quadCount + world.triangleCount + world.roundCount;
     const std::uint32_t maximum = std::min(settings.maxLinear, shared::kMaxListedPrimitives);
     bvh.isLinear = input.instances.empty() && primitives <= maximum;
     if (bvh.isLinear) {
@@ -310,7 +329,8 @@ std::optional<GpuBvh> buildGpuBvh(const AccelInput& input, const GpuBvhSettings&
         return bvh;
     }
     BvhSettings tree = settings.tree;
-    tree.maxLeafSize = std::min(tree.maxLeafSize, shared::kTreeLeafSize);
+    tree.maxLeafSize =
+        std::min(tree.maxLeafSize, input.rounds.empty() ? shared::kTreeLeafSize : shared::kMaxRoundsOfLeaf);
     Flattener flattener(input);
     bool hasWorld = false;
     const auto add = [&](const SceneTree& built) {

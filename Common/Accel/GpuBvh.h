@@ -23,6 +23,7 @@ struct GpuTrees {
     std::vector<std::uint32_t> sphereIndices; // of each of them in the scene
     std::vector<shared::TreeQuad> quads;
     std::vector<shared::TreeTriangle> triangles;
+    std::vector<shared::TreeRound> rounds;
     std::vector<std::uint32_t> instanceRoots; // of each instance's geometry; meaningless for an empty one
     std::uint32_t root = 0;                   // the world's
     std::uint32_t depth = 0;                  // most references that a traversal has to remember
@@ -36,6 +37,7 @@ struct LinearLists {
     std::uint32_t cuboids = 0;                // of the others' faces
     std::uint32_t quads = 0;                  // the rest
     std::uint32_t triangles = 0;
+    std::uint32_t rounds = 0;
 };
 
 struct GpuBvh {

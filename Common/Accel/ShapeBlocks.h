@@ -4,6 +4,7 @@
 #include "Common/Accel/AccelView.h"
 #include "Common/Accel/Simd/Simd.h"
 #include "Common/Shared/Base/Features.h"
+#include "Common/Shared/Shape/Rounds.h"
 #include "Common/Shared/Shape/Shapes.h"
 
 namespace rt::accel {
@@ -141,6 +142,36 @@ RT_FN LaneHits intersectBlock(const ShapeRay& ray, const QuadBlock& block) {
     const Mask8 insideU = absolute(u) <= multiplyAdd(distance, load(block.margin[0]), reach);
     const Mask8 insideV = absolute(v) <= multiplyAdd(distance, load(block.margin[1]), reach);
     return {insideU & insideV & (broadcast(0.0f) < t), t, u + half, v + half};
+}
+
+// Disks and cylinders in their own coordinates: each lane takes what it is of both tests.
+RT_FN LaneHits intersectBlock(const ShapeRay& ray, const RoundBlock& block) {
+    const Float8 zero = broadcast(0.0f), one = broadcast(1.0f), half = broadcast(0.5f);
+    const Float8 error = broadcast(shared::kRoundError);
+    const Vector f = broadcast3(ray.origin) - load3(block.origin);
+    const Vector d = broadcast3(ray.direction);
+    const Vector rows[3] = {load3(block.dualU), load3(block.dualV), load3(block.dualW)};
+    const Vector o = {dot(rows[0], f), dot(rows[1], f), dot(rows[2], f)};
+    const Vector w = {dot(rows[0], d), dot(rows[1], d), dot(rows[2], d)};
+    const Float8 hole = load(block.hole);
+
+    const Float8 plane = (zero - o.z) / w.z;
+    const Float8 u = multiplyAdd(plane, w.x, o.x), v = multiplyAdd(plane, w.y, o.y);
+    const Float8 squared = multiplyAdd(u, u, v * v);
+    const Float8 reach = multiplyAdd(error, one + absolute(o.x) + absolute(o.y), one);
+    const Mask8 isOnDisk = (zero <= hole) & (squared <= reach) & (hole * hole <= squared) & (zero < plane);
+
+    const Float8 inverse = one / multiplyAdd(w.x, w.x, w.y * w.y);
+    const Float8 middle = (zero - multiplyAdd(o.x, w.x, o.y * w.y)) * inverse;
+    const Float8 x = multiplyAdd(middle, w.x, o.x), y = multiplyAdd(middle, w.y, o.y);
+    const Float8 halfChord = squareRoot((one - multiplyAdd(x, x, y * y)) * inverse); // not a number beside it
+    const Float8 height = multiplyAdd(error, one + absolute(o.z), half);
+    const Float8 near = middle - halfChord, far = middle + halfChord;
+    const Float8 fromMiddle = o.z - half;
+    const Mask8 isNear = (zero < near) & (absolute(multiplyAdd(near, w.z, fromMiddle)) <= height);
+    const Mask8 isFar = (zero < far) & (absolute(multiplyAdd(far, w.z, fromMiddle)) <= height);
+    const Mask8 isOnCylinder = (hole < zero) & (isNear | isFar);
+    return {isOnDisk | isOnCylinder, select(isOnDisk, plane, select(isNear, near, far)), zero, zero};
 }
 
 // x of p times y of q minus y of p times x of q, for the three edges of triangles in the plane across the ray. Signs

@@ -124,7 +124,7 @@ void forEachMethod(const Visit& visit, Settings&... settings) {
           settings.lightSelection...);
     visit("sphere_light", "Sampling strategy for sphere lights", "where a sphere is sampled", kSphereLights,
           settings.sphereLight...);
-    visit("quad_light", "Sampling strategy for quad lights", "where a quad is sampled", kFlatLights,
+    visit("quad_light", "Sampling strategy for quad lights", "where a quad, disk or cylinder is sampled", kFlatLights,
           settings.quadLight...);
     visit("triangle_light", "Sampling strategy for triangle lights", "where a triangle is sampled", kFlatLights,
           settings.triangleLight...);

@@ -217,6 +217,12 @@ std::string describeLightShapes(const RenderSettings& settings, shared::Features
              "auto (nearly projected, cone when far)");
     describe(shared::kFeatureQuadLights, settings.quadLight, "quad", "solid-angle",
              "auto (area when far, strip when thin, else solid-angle by the cosine)");
+    // There are no projected ones.
+    const bool isRoundProjected = settings.quadLight == ShapeSampling::Projected;
+    const ShapeSampling roundLight = isRoundProjected ? ShapeSampling::SolidAngle : settings.quadLight;
+    describe(shared::kFeatureDiskLights, roundLight, "disk", "solid-angle",
+             "auto (area when far, else solid-angle by the cosine)");
+    describe(shared::kFeatureCylinderLights, roundLight, "cylinder", "solid-angle", "auto (solid-angle by the cosine)");
     describe(shared::kFeatureTriangleLights, settings.triangleLight, "triangle", "solid-angle",
              "auto (area when far, else solid-angle)");
     const bool isProjected = settings.sphereLight == ShapeSampling::Projected; // there are no projected ellipsoids

@@ -73,6 +73,10 @@ Ball ballAround(const Light& light) {
             return {position + 0.5 * u, static_cast<double>(light.radius) + 0.5 * glm::length(u)};
         case shared::kLightEllipsoid:
             return {position, std::max({glm::length(u), glm::length(v), glm::length(w)})};
+        case shared::kLightDisk:
+            return {position, std::hypot(glm::length(u), glm::length(v))};
+        case shared::kLightCylinder:
+            return {position + 0.5 * w, std::hypot(glm::length(u), glm::length(v), 0.5 * glm::length(w))};
         default:
             return {position + 0.5 * (u + v), 0.5 * std::max(glm::length(u + v), glm::length(u - v))};
     }

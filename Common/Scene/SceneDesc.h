@@ -212,6 +212,25 @@ struct BoxDesc {
     bool light = true;
     bool operator==(const BoxDesc&) const = default;
 };
+// A circle, or a ring around its hole; front: the side that `normal`, of any length, points to.
+struct DiskDesc {
+    glm::dvec3 center{0, 0, 0};
+    glm::dvec3 normal{0, 0, 1};
+    double radius = 1;
+    double innerRadius = 0; // of its hole
+    std::string material;
+    bool light = true;
+    bool operator==(const DiskDesc&) const = default;
+};
+// Open at both ends; front: the outside.
+struct CylinderDesc {
+    glm::dvec3 base{0, 0, 0}; // centres of its ends
+    glm::dvec3 top{0, 0, 1};
+    double radius = 1;
+    std::string material;
+    bool light = true;
+    bool operator==(const CylinderDesc&) const = default;
+};
 struct MeshData {
     std::vector<glm::dvec3> positions;
     std::vector<glm::dvec3> normals;   // one per position, or none: flat
@@ -283,8 +302,9 @@ struct InstanceDesc {
     bool operator==(const InstanceDesc&) const = default;
 };
 struct ObjectDesc {
-    using Shape = std::variant<SphereDesc, SphereSetDesc, QuadDesc, BoxDesc, MeshDesc, MediumDesc, PointLightDesc,
-                               SpotLightDesc, DirectionalLightDesc, GroupDesc, InstanceDesc>;
+    using Shape =
+        std::variant<SphereDesc, SphereSetDesc, QuadDesc, BoxDesc, DiskDesc, CylinderDesc, MeshDesc, MediumDesc,
+                     PointLightDesc, SpotLightDesc, DirectionalLightDesc, GroupDesc, InstanceDesc>;
     Shape shape;
     bool operator==(const ObjectDesc&) const = default;
 };

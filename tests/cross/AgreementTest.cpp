@@ -317,6 +317,37 @@ TEST_P(PunctualAgreementTest, SampleForSample) {
     EXPECT_EQ(device().validationMessages(), 0u);
 }
 
+// As lights and as what they light, round and elliptic, through lists, the tree, the pipeline and queries.
+class RoundAgreementTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
+INSTANTIATE_TEST_SUITE_P(Engines, RoundAgreementTest, kFirstEngine, engineName);
+INSTANTIATE_TEST_SUITE_P(OtherEngines, RoundAgreementTest, kSecondEngine, engineName);
+INSTANTIATE_TEST_SUITE_P(Queries, RoundAgreementTest, kQueries);
+
+TEST_P(RoundAgreementTest, SampleForSample) {
+    const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/disks-and-cylinders.json"), true, true);
+    EnginePair engines(scene, GetParam());
+    EXPECT_GE(agreement(engines.render(pairSettings(1))), minAgreement(*scene));
+    EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
+    EXPECT_EQ(device().validationMessages(), 0u);
+}
+
+// So many that there is a tree, instanced too.
+TEST_P(RoundAgreementTest, OfInstances) {
+    scene::SceneDesc desc = app::loadScene(RT_TEST_DATA_DIR "/scenes/disks-and-cylinders.json");
+    std::vector<scene::ObjectDesc>& stack = desc.prototypes["stack"];
+    for (int i = 0; i < 40; ++i) {
+        stack.push_back({scene::DiskDesc{{0, 0.05 * i, 0}, {0.1, 1, 0}, 0.3, i % 2 == 0 ? 0.2 : 0, "red"}});
+        stack.push_back({scene::CylinderDesc{{0.5, 0.05 * i, 0}, {0.52, 0.05 * i + 0.03, 0}, 0.1, "steel"}});
+    }
+    for (const double x : {-1.0, 0.0, 1.0})
+        desc.objects.push_back(
+            {scene::InstanceDesc{"stack", {scene::Rotate{{1, 0, 1}, 20 * x}, scene::Translate{{x, 0.3, -1}}}, {}}});
+    const auto scene = app::compile(desc, true, true);
+    EnginePair engines(scene, GetParam());
+    EXPECT_GE(agreement(engines.render(pairSettings(1))), minAgreement(*scene));
+    EXPECT_EQ(device().validationMessages(), 0u);
+}
+
 // Lights sampled by projected solid angle take shaders of their own: without that code they would stay dark.
 class ProjectedAgreementTest : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Triangles, ProjectedAgreementTest, ::testing::Values("triangle-lights"));

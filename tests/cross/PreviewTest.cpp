@@ -2,6 +2,7 @@
 // same colours.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -112,9 +113,10 @@ class PreviewDepthTest : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, PreviewDepthTest,
                          ::testing::Values("cornell-box-lights", "one-weekend-final", "next-week-random-spheres",
                                            "next-week-final", "rest-of-life-cornell-box", "cube-and-spheres",
-                                           "triangle-lights", "veach-mis"),
+                                           "triangle-lights", "veach-mis",
+                                           RT_TEST_DATA_DIR "/scenes/disks-and-cylinders.json"),
                          [](const auto& info) {
-                             std::string name = info.param;
+                             std::string name = std::filesystem::path(info.param).stem().string();
                              std::replace(name.begin(), name.end(), '-', '_');
                              return name;
                          });

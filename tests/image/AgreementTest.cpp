@@ -54,6 +54,11 @@ TEST(EllipsoidLights, AreTheSameForAllWaysToSampleLights) {
     expectAgreement(desc);
 }
 
+// As lights and as what they light: with a hole, open, elliptic, slanted.
+TEST(DisksAndCylinders, AreTheSameForAllWaysToSampleLights) {
+    expectAgreement(app::loadScene(RT_TEST_DATA_DIR "/scenes/disks-and-cylinders.json"));
+}
+
 TEST(Principled, IsTheSameForAllWaysToSampleLights) {
     expectAgreement(app::loadScene(RT_TEST_DATA_DIR "/scenes/principled.json"));
 }

@@ -1,8 +1,10 @@
 // A Lambert floor under one light, seen at a point: radiance = albedo / pi * irradiance, which is known in closed form.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <vector>
 
 #include "Common/Scene/Affine.h"
 #include "tests/image/AnalyticScenes.h"
@@ -62,6 +64,56 @@ TEST(Irradiance, UnderAQuad) {
         desc.objects.push_back({QuadDesc{corner, u, v, "light"}});
         const std::array<dvec3, 4> outline{corner, corner + u, corner + u + v, corner + v};
         expectIrradiance(desc, polygonIrradiance(outline), "quad");
+    }
+}
+
+// On the axis the form factor is r^2 / (r^2 + h^2); elsewhere by the polygon of so many sides. Holes are subtracted.
+TEST(Irradiance, UnderADisk) {
+    constexpr int kSides = 4096;
+    const auto outline = [](const DiskDesc& disk, double radius) {
+        const dvec3 u = glm::normalize(glm::cross(disk.normal, dvec3(0.3, 0.2, 1))), v = glm::cross(disk.normal, u);
+        std::vector<dvec3> points;
+        for (int i = 0; i < kSides; ++i) {
+            const double turn = 2 * std::numbers::pi * i / kSides;
+            points.push_back(disk.center + radius * (std::cos(turn) * u + std::sin(turn) * v));
+        }
+        return points;
+    };
+    SceneDesc above = floorScene();
+    above.objects.push_back({DiskDesc{{0, 1.5, 0}, {0, -1, 0}, 1, 0, "light"}});
+    expectIrradiance(above, std::numbers::pi / (1 + 1.5 * 1.5), "disk on the axis");
+    for (const DiskDesc& disk : {DiskDesc{{0.8, 1.2, -0.5}, {0.6, -0.8, 0}, 0.9, 0, "light"},
+                                 DiskDesc{{0.4, 0.7, -0.3}, {0, -0.8, 0.6}, 0.6, 0.25, "light"}}) {
+        SceneDesc desc = floorScene();
+        desc.objects.push_back({disk});
+        expectIrradiance(
+            desc, polygonIrradiance(outline(disk, disk.radius)) - polygonIrradiance(outline(disk, disk.innerRadius)),
+            "disk");
+    }
+}
+
+// By the sum over the side that faces the floor.
+TEST(Irradiance, UnderACylinder) {
+    constexpr int kSteps = 1000;
+    for (const CylinderDesc& tube : {CylinderDesc{{-0.8, 1.2, 0.3}, {1.1, 1.5, -0.4}, 0.3, "light"},
+                                     CylinderDesc{{1.2, 0.1, 0.2}, {1.0, 1.6, 0.1}, 0.4, "light"}}) {
+        const dvec3 axis = tube.top - tube.base, w = glm::normalize(axis);
+        const dvec3 u = glm::normalize(glm::cross(w, dvec3(0.3, 0.2, 1))), v = glm::cross(w, u);
+        double sum = 0;
+        for (int i = 0; i < kSteps; ++i) {
+            const double turn = 2 * std::numbers::pi * (i + 0.5) / kSteps;
+            const dvec3 normal = std::cos(turn) * u + std::sin(turn) * v;
+            for (int j = 0; j < kSteps; ++j) {
+                const dvec3 p = tube.base + axis * ((j + 0.5) / kSteps) + tube.radius * normal;
+                const double d2 = glm::dot(p, p);
+                sum += std::max(p.y, 0.0) * std::max(-glm::dot(p, normal), 0.0) / (d2 * d2);
+            }
+        }
+        SceneDesc desc = floorScene();
+        desc.materials["light"].sides = Sides::Front;
+        desc.objects.push_back({tube});
+        expectIrradiance(desc, sum * 2 * std::numbers::pi * tube.radius * glm::length(axis) / (kSteps * kSteps),
+                         "cylinder");
     }
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
 #ifdef RT_HAS_EMBREE
@@ -77,6 +79,40 @@ void add(FirstHit& first, const Ray& ray, dvec3 corner, dvec3 u, dvec3 v, bool i
     if (depth > doubt && t - slack > 0.0) first.latest = std::min(first.latest, t + slack);
 }
 
+// A hit of a disk or cylinder of radius 1 + kDoubt at t is `possible`, of one of radius 1 - kDoubt `certain`.
+void addHit(FirstHit& first, double t, double slack, bool isPossible, bool isCertain) {
+    if (isPossible && t + slack > 0.0) first.earliest = std::min(first.earliest, t - slack);
+    if (isCertain && t - slack > 0.0) first.latest = std::min(first.latest, t + slack);
+}
+
+void add(FirstHit& first, const Ray& ray, const shared::Round& r) {
+    const glm::dmat3 toLocal = glm::inverse(glm::dmat3(dvec3(r.edgeU), dvec3(r.edgeV), dvec3(r.axis)));
+    const dvec3 f = dvec3(ray.origin) - dvec3(r.origin);
+    const dvec3 o = toLocal * f, d = toLocal * dvec3(ray.direction);
+    const double doubt = kDoubt + kRounding * glm::length(o);
+    if (r.hole >= 0.0f) {
+        const double cosine = std::abs(d.z) / glm::length(ray.direction);
+        if (cosine < 1e-9) return; // along the plane: no first hit is surely there
+        const double t = -o.z / d.z, radius = std::hypot(o.x + t * d.x, o.y + t * d.y), hole = double{r.hole};
+        const double slack = kRounding * (glm::length(f) + std::abs(t)) / cosine;
+        const double blur = (doubt + slack * std::hypot(d.x, d.y)) / cosine;
+        addHit(first, t, slack, radius <= 1 + blur && radius >= hole - blur,
+               radius <= 1 - blur && radius >= (hole > 0 ? hole + blur : 0));
+        return;
+    }
+    const double a = d.x * d.x + d.y * d.y, middle = -(o.x * d.x + o.y * d.y) / a;
+    const double squared = std::pow(std::hypot(o.x + middle * d.x, o.y + middle * d.y), 2);
+    const auto half = [&](double radius) { return std::sqrt(std::max(radius * radius - squared, 0.0) / a); };
+    const double outer = half(1 + doubt), inner = half(1 - doubt);
+    const bool isMet = squared < (1 + doubt) * (1 + doubt), isSurelyMet = squared < (1 - doubt) * (1 - doubt);
+    for (const double side : {-1.0, 1.0}) {
+        const double t = middle + side * half(1);
+        const double slack = outer - inner + kRounding * (glm::length(f) + std::abs(t));
+        const double z = o.z + t * d.z, blur = doubt + slack * std::abs(d.z);
+        addHit(first, t, slack, isMet && z >= -blur && z <= 1 + blur, isSurelyMet && z >= blur && z <= 1 - blur);
+    }
+}
+
 FirstHit bruteForce(const Geometry& g, const Ray& ray) {
     FirstHit first;
     for (const shared::Sphere& s : g.spheres) {
@@ -84,6 +120,9 @@ FirstHit bruteForce(const Geometry& g, const Ray& ray) {
     }
     for (const shared::Quad& q : g.quads) {
         add(first, ray, q.corner, q.edgeU, q.edgeV, false);
+    }
+    for (const shared::Round& r : g.rounds) {
+        add(first, ray, r);
     }
     for (const shared::uvec3& t : g.triangles) {
         const dvec3 a = g.positions[t.x];
@@ -106,6 +145,12 @@ Geometry adversarialGeometry() {
         const vec3 a = random.inCube(8.0f);
         const vec3 along = random.direction() * size();
         g.addTriangle(a, a + along, a + along * random.uniform() + random.direction() * (0.3f * size()));
+    }
+    for (int i = 0; i < 16; ++i) {
+        const vec3 u = random.direction(), v = shared::normalize(shared::cross(u, random.direction()));
+        const float s = size();
+        g.addDisk(random.inCube(8.0f), u * s, v * (s * random.uniform(0.1f, 1.0f)), i % 3 == 0 ? 0.5f : 0.0f);
+        g.addCylinder(random.inCube(8.0f), u * s, v * s, shared::cross(u, v) * size());
     }
     g.addSphere(vec3(0.0f, -1010.0f, 0.0f), 1000.0f);
     return g;

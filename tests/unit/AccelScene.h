@@ -23,17 +23,18 @@ struct Geometry {
     std::vector<shared::uvec3> triangles;
     std::vector<shared::Geometry> geometries;
     std::vector<shared::Instance> instances;
+    std::vector<shared::Round> rounds;
 
     // Everything that is there belongs to the world, unless geometries were set.
     AccelInput input() {
         if (geometries.empty()) geometries.push_back(whole());
         for (std::size_t i = 0; i < motions.size(); ++i)
             if (motions[i] != vec3(0.0f)) spheres[i].power = shared::kInfinity;
-        return {spheres, motions, quads, positions, triangles, geometries, instances};
+        return {spheres, motions, quads, positions, triangles, geometries, instances, rounds};
     }
     shared::Geometry whole() const {
-        return {0, static_cast<std::uint32_t>(spheres.size()),  0, static_cast<std::uint32_t>(quads.size()),
-                0, static_cast<std::uint32_t>(triangles.size())};
+        return {0, static_cast<std::uint32_t>(spheres.size()),   0, static_cast<std::uint32_t>(quads.size()),
+                0, static_cast<std::uint32_t>(triangles.size()), 0, static_cast<std::uint32_t>(rounds.size())};
     }
     void addSphere(vec3 center, float radius) {
         const float power = scene::spherePower(glm::dvec3(center), static_cast<double>(radius));
@@ -41,6 +42,12 @@ struct Geometry {
     }
     void addQuad(vec3 corner, vec3 u, vec3 v) {
         quads.push_back({corner, u, v, shared::normalize(shared::cross(u, v)), 0, shared::kNone});
+    }
+    void addDisk(vec3 center, vec3 u, vec3 v, float hole) {
+        rounds.push_back({center, u, v, shared::normalize(shared::cross(u, v)), hole, 0, shared::kNone});
+    }
+    void addCylinder(vec3 base, vec3 u, vec3 v, vec3 axis) {
+        rounds.push_back({base, u, v, axis, -1.0f, 0, shared::kNone});
     }
     void addTriangle(vec3 a, vec3 b, vec3 c) {
         const std::uint32_t first = static_cast<std::uint32_t>(positions.size());

@@ -28,6 +28,20 @@ void addRandomTriangles(Geometry& g, Random& random, int count) {
     }
 }
 
+// Disks and cylinders, round and elliptic, slanted too.
+void addRandomRounds(Geometry& g, Random& random, int count) {
+    for (int i = 0; i < count; ++i) {
+        const vec3 u = random.direction(), across = shared::normalize(shared::cross(u, random.direction()));
+        const float size = random.uniform(0.1f, 2.0f);
+        const vec3 v = (across + 0.3f * random.uniform() * u) * random.uniform(0.3f, 1.0f);
+        const vec3 axis = shared::normalize(shared::cross(u, v)) + 0.3f * random.uniform() * u;
+        if (i % 2 == 0)
+            g.addDisk(random.inCube(10.0f), u * size, v * size, i % 4 == 0 ? 0.0f : random.uniform(0.0f, 0.9f));
+        else
+            g.addCylinder(random.inCube(10.0f), u * size, v * size, axis * random.uniform(0.1f, 3.0f));
+    }
+}
+
 // Every other ray is aimed at some primitive.
 std::vector<Ray> randomRays(const Geometry& g, Random& random, int count) {
     std::vector<vec3> targets;
@@ -40,6 +54,7 @@ std::vector<Ray> randomRays(const Geometry& g, Random& random, int count) {
     for (const shared::uvec3& t : g.triangles) {
         targets.push_back((g.positions[t.x] + g.positions[t.y] + g.positions[t.z]) / 3.0f);
     }
+    for (const shared::Round& r : g.rounds) targets.push_back(r.origin + 0.95f * r.edgeU);
     std::vector<Ray> rays;
     for (int i = 0; i < count; ++i) {
         Ray ray{random.inCube(14.0f), random.direction(), random.uniform()};
@@ -60,7 +75,7 @@ struct NamedGeometry {
 };
 std::vector<NamedGeometry> geometries(int count) {
     Random random(7);
-    std::vector<NamedGeometry> result(5);
+    std::vector<NamedGeometry> result(6);
     result[0].name = "spheres";
     addRandomSpheres(result[0].geometry, random, count);
     result[1].name = "moving spheres";
@@ -76,6 +91,9 @@ std::vector<NamedGeometry> geometries(int count) {
     addRandomSpheres(result[4].geometry, random, count / 3);
     addRandomQuads(result[4].geometry, random, count / 3);
     addRandomTriangles(result[4].geometry, random, count / 3);
+    addRandomRounds(result[4].geometry, random, count / 3);
+    result[5].name = "disks and cylinders";
+    addRandomRounds(result[5].geometry, random, count);
     return result;
 }
 
@@ -343,6 +361,12 @@ TEST(AccelTraversal, PowersOfTwoScaleExactly) {
                 quad.corner *= scale;
                 quad.edgeU *= scale;
                 quad.edgeV *= scale;
+            }
+            for (shared::Round& r : scaled.rounds) {
+                r.origin *= scale;
+                r.edgeU *= scale;
+                r.edgeV *= scale;
+                if (r.hole < 0.0f) r.axis *= scale;
             }
             for (vec3& v : scaled.positions) {
                 v *= scale;

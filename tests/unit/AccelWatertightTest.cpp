@@ -140,6 +140,37 @@ Geometry quadBox(vec3 center, float size, const Axes& axes) {
     return g;
 }
 
+// Rays from within, aimed at the rims where disks close a cylinder.
+TEST(Watertight, CylindersThatDisksCloseDoNotLeakAtTheirRims) {
+    const std::array<vec3, 3> turned{vec3(0.8f, 0.36f, -0.48f), vec3(-0.6f, 0.48f, -0.64f), vec3(0.0f, 0.8f, 0.6f)};
+    for (const float size : {1e-4f, 1.0f, 555.0f, 1e4f}) {
+        for (const float shift : {0.0f, 10.0f}) {
+            const vec3 base = vec3(0.7f, -1.1f, 0.4f) * (size * shift);
+            const vec3 u = turned[0] * size, v = turned[1] * (0.7f * size), axis = turned[2] * (1.3f * size);
+            Geometry g;
+            g.addCylinder(base, u, v, axis);
+            g.addDisk(base, u, v, 0.0f);
+            g.addDisk(base + axis, u, v, 0.0f);
+            Random random(35);
+            std::vector<Ray> rays;
+            for (int i = 0; i < 4000; ++i) {
+                const float turn = random.uniform(0.0f, 6.2831853f);
+                const vec3 rim = base + u * std::cos(turn) + v * std::sin(turn) + (i % 2 == 0 ? axis : vec3(0.0f));
+                const vec3 origin = base + axis * random.uniform(0.1f, 0.9f) + u * random.uniform(-0.5f, 0.5f) +
+                                    v * random.uniform(-0.5f, 0.5f);
+                rays.push_back({origin, shared::normalize(rim - origin), 0.0f});
+            }
+            for (const std::uint32_t maxLinear : {0u, kAlwaysLinear}) {
+                const auto accel = buildAccel(g, maxLinear);
+                for (const NamedQuery& q : runnableQueries()) {
+                    SCOPED_TRACE(q.name + " size " + std::to_string(size) + " shift " + std::to_string(shift));
+                    EXPECT_EQ(countLeaks(*q.query, accel->view(), rays), 0);
+                }
+            }
+        }
+    }
+}
+
 TEST(Watertight, BoxesOfQuadsDoNotLeakAtEdgesAndCorners) {
     const Axes straight{vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)};
     const Axes turned{vec3(0.8f, 0.36f, -0.48f), vec3(-0.6f, 0.48f, -0.64f), vec3(0.0f, 0.8f, 0.6f)};

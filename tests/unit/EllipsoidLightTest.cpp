@@ -225,7 +225,7 @@ TEST(Ellipsoids, FromInsideTheyFillAllDirections) {
         Mean surface, medium;
         for (int i = 0; i < 1 << 14; ++i) {
             const vec2 u = uniform.pair();
-            const LightSample s = sampleLight(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), kUp, 0, u);
+            const LightSample s = sampleLight(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), kLitUp, 0, u);
             if (sides == kSidesFront) {
                 ASSERT_EQ(s.pdf, 0.0f);
                 continue;
@@ -234,7 +234,8 @@ TEST(Ellipsoids, FromInsideTheyFillAllDirections) {
             surface.add(double(s.wi.z) / double(s.pdf));
             EXPECT_NEAR(glm::length(glm::inverse(axes) * (dvec3(s.point) - dvec3(light.position))), 1, 1e-5);
             EXPECT_GT(glm::dot(s.normal, s.wi), 0.0f); // outward
-            EXPECT_NEAR(lightPdfAlong(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), kUp, 0, s.wi), s.pdf, 1e-6f);
+            EXPECT_NEAR(lightPdfAlong(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), kLitUp, 0, s.wi), s.pdf,
+                        1e-6f);
             const LightSample m = sampleLight(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), vec3(0), 0, u);
             medium.add(1 / double(m.pdf));
             EXPECT_EQ(lightPdfAlong(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), vec3(0), 0, m.wi), m.pdf);

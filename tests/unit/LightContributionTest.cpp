@@ -51,10 +51,10 @@ TEST(LightContribution, IsNeverZeroWhereTheLightContributes) {
         if (light.kind == kLightSphere && glm::length(light.position) <= light.radius * 1.0001f) continue;
         const bool oneSided = light.kind != kLightSphere && (i & 1);
         if (oneSided) light.sides = kSidesFront;
-        const float contribution = lightContribution(boundOf(light), vec3(0), kUp);
+        const float contribution = lightContribution(boundOf(light), vec3(0), kLitUp);
         ASSERT_TRUE(isFinite(contribution) && contribution >= 0);
         const bool lit = !oneSided || glm::dot(dvec3(light.normal), -dvec3(light.position)) > 1e-6;
-        const double exact = lit ? irradiance(light, dvec3(kUp)) : 0;
+        const double exact = lit ? irradiance(light, dvec3(kLitUp)) : 0;
         if (exact > 1e-9) {
             ASSERT_GT(contribution, 0.0f) << i;
         }
@@ -76,8 +76,8 @@ TEST(LightContribution, IsTheIrradianceOfSmallLights) {
         if (center.z < 0.1 * glm::length(center) || glm::length(center) < 1) continue;
         if (light.kind != kLightSphere && std::abs(glm::dot(dvec3(light.normal), glm::normalize(center))) < 0.1)
             continue;
-        const double exact = irradiance(light, dvec3(kUp));
-        ASSERT_NEAR(lightContribution(boundOf(light), vec3(0), kUp), exact, 0.1 * exact);
+        const double exact = irradiance(light, dvec3(kLitUp));
+        ASSERT_NEAR(lightContribution(boundOf(light), vec3(0), kLitUp), exact, 0.1 * exact);
     }
 }
 
@@ -87,7 +87,7 @@ TEST(LightContribution, ScalesExactly) {
         const LightBound bound = boundOf(randomLight(uniform, 1));
         LightBound scaled = bound;
         scaled.center *= 0x1p16f, scaled.radius *= 0x1p16f, scaled.intensity *= 0x1p32f;
-        ASSERT_EQ(lightContribution(bound, vec3(0), kUp), lightContribution(scaled, vec3(0), kUp));
+        ASSERT_EQ(lightContribution(bound, vec3(0), kLitUp), lightContribution(scaled, vec3(0), kLitUp));
     }
 }
 
@@ -106,16 +106,16 @@ TEST(LightContribution, BeatsChoiceByPower) {
             double x = uniform.between(0, total);
             std::size_t chosen = 0;
             while (chosen + 1 < lights.size() && x >= weights[chosen]) x -= weights[chosen++];
-            const LightSample s = sampleLight(kFeatureAll, params, lights[chosen], vec3(0), kUp, 0, uniform.pair());
+            const LightSample s = sampleLight(kFeatureAll, params, lights[chosen], vec3(0), kLitUp, 0, uniform.pair());
             mean.add(s.pdf > 0 && weights[chosen] > 0 ? double(s.wi.z) / s.pdf * total / weights[chosen] : 0);
         }
         return std::pair(mean, mean.relativeVariance());
     };
     const auto [byContribution, low] =
-        variance([](const Light& l) { return double(lightContribution(boundOf(l), vec3(0), kUp)); });
+        variance([](const Light& l) { return double(lightContribution(boundOf(l), vec3(0), kLitUp)); });
     const auto [byPower, high] = variance([](const Light& l) { return double(l.area); });
     double exact = 0;
-    for (const Light& light : lights) exact += irradiance(light, dvec3(kUp));
+    for (const Light& light : lights) exact += irradiance(light, dvec3(kLitUp));
     EXPECT_TRUE(agrees(byContribution, exact));
     EXPECT_TRUE(agrees(byPower, exact));
     EXPECT_LT(low * 5, high);

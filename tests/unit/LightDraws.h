@@ -5,7 +5,7 @@
 
 namespace rt::shared {
 
-inline const vec3 kUp(0, 0, 1);
+inline const vec3 kLitUp(0, 0, 1);
 
 inline RenderParams withMethod(uint method) {
     RenderParams params{};
@@ -13,13 +13,13 @@ inline RenderParams withMethod(uint method) {
     return params;
 }
 
-// Estimates of the irradiance at the origin of a surface with the normal kUp, under a light of radiance 1, from a
+// Estimates of the irradiance at the origin of a surface with the normal kLitUp, under a light of radiance 1, from a
 // sample each.
 inline test::Mean irradianceEstimates(const Light& light, uint method, std::uint32_t seed, int count) {
     test::Uniforms uniform(seed);
     test::Mean mean;
     for (int i = 0; i < count; ++i) {
-        const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kUp, 0, uniform.pair());
+        const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kLitUp, 0, uniform.pair());
         mean.add(s.pdf > 0 ? double(s.wi.z) / double(s.pdf) : 0);
     }
     return mean;

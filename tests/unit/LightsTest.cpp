@@ -93,7 +93,7 @@ TEST_P(LightCase, IrradianceIsAnalyticForEveryMethod) {
         if (method == kShapeArea && areaIsHopeless) continue;
         const Mean mean = irradianceEstimates(light, method, 1, 1 << 16);
         const double rounding = name == "triangle sliver" ? 3e-5 : 1e-5; // a thousandth as wide as it is long
-        EXPECT_TRUE(agrees(mean, irradiance(light, dvec3(kUp)), rounding)) << name << ", method " << method;
+        EXPECT_TRUE(agrees(mean, irradiance(light, dvec3(kLitUp)), rounding)) << name << ", method " << method;
     }
 }
 
@@ -156,10 +156,11 @@ TEST_P(LightCase, DensityIsThatOfTheSampleOnASurface) {
         Uniforms uniform(13);
         std::vector<double> differences;
         for (int i = 0; i < 1 << 13; ++i) {
-            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kUp, 0, uniform.pair());
+            const LightSample s =
+                sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kLitUp, 0, uniform.pair());
             if (!(s.pdf > 0)) continue;
             const float again =
-                lightPdf(kFeatureAll, withMethod(method), light, vec3(0), kUp, 0, s.wi, s.distance, s.normal);
+                lightPdf(kFeatureAll, withMethod(method), light, vec3(0), kLitUp, 0, s.wi, s.distance, s.normal);
             ASSERT_TRUE(isFinite(again) && again >= 0) << name;
             differences.push_back(std::abs(double(again) / double(s.pdf) - 1));
         }
@@ -183,8 +184,8 @@ TEST_P(LightCase, ScalesExactly) {
             Uniforms uniform(4);
             for (int i = 0; i < 256; ++i) {
                 const vec2 u = uniform.pair();
-                const LightSample a = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kUp, 0, u);
-                const LightSample b = sampleLight(kFeatureAll, withMethod(method), scaled, vec3(0), kUp, 0, u);
+                const LightSample a = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kLitUp, 0, u);
+                const LightSample b = sampleLight(kFeatureAll, withMethod(method), scaled, vec3(0), kLitUp, 0, u);
                 ASSERT_EQ(a.wi, b.wi) << name << ", method " << method;
                 ASSERT_EQ(a.pdf, b.pdf) << name << ", method " << method;
                 ASSERT_EQ(a.point * scale, b.point) << name << ", method " << method;
@@ -224,10 +225,10 @@ TEST(Lights, DarkSideAndHorizon) {
     for (const uint method : kMethods) {
         for (int i = 0; i < 100; ++i) {
             const vec2 u = uniform.pair();
-            EXPECT_EQ(sampleLight(kFeatureAll, withMethod(method), front, vec3(0), kUp, 0, u).pdf, 0.0f);
-            EXPECT_EQ(sampleLight(kFeatureAll, withMethod(method), below, vec3(0), kUp, 0, u).pdf, 0.0f);
+            EXPECT_EQ(sampleLight(kFeatureAll, withMethod(method), front, vec3(0), kLitUp, 0, u).pdf, 0.0f);
+            EXPECT_EQ(sampleLight(kFeatureAll, withMethod(method), below, vec3(0), kLitUp, 0, u).pdf, 0.0f);
             EXPECT_GT(sampleLight(kFeatureAll, withMethod(method), below, vec3(0), vec3(0), 0, u).pdf, 0.0f);
-            EXPECT_GT(sampleLight(kFeatureAll, withMethod(method), facing, vec3(0), kUp, 0, u).pdf, 0.0f);
+            EXPECT_GT(sampleLight(kFeatureAll, withMethod(method), facing, vec3(0), kLitUp, 0, u).pdf, 0.0f);
         }
     }
     // In the light's own plane.
@@ -294,7 +295,7 @@ TEST(Lights, EqualNumbersLeadToNeighboursWhereTheMethodChanges) {
                 std::optional<vec2> before;
                 for (double distance = 2; distance < 4; distance += 0.01) {
                     const vec2 uv = sampleLight(kFeatureAll, withMethod(kShapeAuto),
-                                                rectangle(swapped, shift, distance), vec3(0), kUp, 0, numbers)
+                                                rectangle(swapped, shift, distance), vec3(0), kLitUp, 0, numbers)
                                         .uv;
                     if (before) {
                         ASSERT_LT(glm::length(uv - *before), 0.05f) << swapped << ", " << shift << ", " << distance;
@@ -310,16 +311,16 @@ TEST(Lights, InsideASphere) {
     Light light = sphere({0.3, -0.2, 0.4}, 2);
     const RenderParams params = withMethod(kShapeAuto);
     Uniforms uniform(6);
-    EXPECT_EQ(sampleLight(kFeatureAll, params, light, vec3(0), kUp, 0, uniform.pair()).pdf, 0.0f);
+    EXPECT_EQ(sampleLight(kFeatureAll, params, light, vec3(0), kLitUp, 0, uniform.pair()).pdf, 0.0f);
     light.sides = kSidesBoth;
     Mean surface, medium;
     for (int i = 0; i < 1 << 14; ++i) {
         const vec2 u = uniform.pair();
-        const LightSample s = sampleLight(kFeatureAll, params, light, vec3(0), kUp, 0, u);
+        const LightSample s = sampleLight(kFeatureAll, params, light, vec3(0), kLitUp, 0, u);
         ASSERT_GT(s.pdf, 0.0f);
         surface.add(double(s.wi.z) / double(s.pdf));
         EXPECT_NEAR(glm::length(dvec3(s.point) - dvec3(light.position)), 2, 2e-6);
-        EXPECT_NEAR(lightPdf(kFeatureAll, params, light, vec3(0), kUp, 0, s.wi, s.distance, s.normal), s.pdf, 1e-6f);
+        EXPECT_NEAR(lightPdf(kFeatureAll, params, light, vec3(0), kLitUp, 0, s.wi, s.distance, s.normal), s.pdf, 1e-6f);
         const LightSample m = sampleLight(kFeatureAll, params, light, vec3(0), vec3(0), 0, u);
         medium.add(1 / double(m.pdf));
         EXPECT_EQ(lightPdf(kFeatureAll, params, light, vec3(0), vec3(0), 0, m.wi, m.distance, m.normal), m.pdf);
@@ -349,9 +350,9 @@ TEST(Lights, MovingSphereIsWhereItIsAtTheRaysTime) {
     Light light = sphere({-1, 0, 2}, 0.3);
     light.edgeU = vec3(2, 0, 0);
     const vec2 u(0.3f, 0.7f);
-    const LightSample moved = sampleLight(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), kUp, 0.5f, u);
+    const LightSample moved = sampleLight(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), kLitUp, 0.5f, u);
     const LightSample still =
-        sampleLight(kFeatureAll, withMethod(kShapeAuto), sphere({0, 0, 2}, 0.3), vec3(0), kUp, 0, u);
+        sampleLight(kFeatureAll, withMethod(kShapeAuto), sphere({0, 0, 2}, 0.3), vec3(0), kLitUp, 0, u);
     EXPECT_EQ(moved.wi, still.wi);
     EXPECT_EQ(moved.pdf, still.pdf);
 }

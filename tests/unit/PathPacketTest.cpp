@@ -32,8 +32,8 @@ struct TracedScene {
     explicit TracedScene(const scene::SceneDesc& desc)
         : compiled(test::connectedThroughAll(*app::compile(desc, true, true))) {
         const scene::CompiledScene& s = *compiled;
-        const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
-                                      s.triangles, s.geometries,    s.instances};
+        const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,     s.positions,
+                                      s.triangles, s.geometries,    s.instances, s.rounds};
         accel = accel::CpuAccel::build(input, {}, nullptr);
         view = CpuScene{viewOf(s, s.globals), accel->view(), {}};
         for (uint byte = 0; byte < 256; ++byte) linear[byte] = srgbToLinear(float(byte) / 255.0f);
@@ -267,10 +267,11 @@ void compareEstimators(const TracedScene& scene) {
 // lens, sky; principled surfaces and layers; instances; a sky image.
 TEST(PathPacket, PathsAreThoseOfStepPath) {
     seen = {};
-    for (const char* id : {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass",
-                           "next-week-final", "one-weekend-final", "many-lights:200", "veach-mis",
-                           RT_TEST_DATA_DIR "/scenes/principled.json", RT_TEST_DATA_DIR "/scenes/lacquer.json",
-                           RT_TEST_DATA_DIR "/scenes/glass-instances.json", RT_TEST_DATA_DIR "/scenes/sun.json"}) {
+    for (const char* id :
+         {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass", "next-week-final",
+          "one-weekend-final", "many-lights:200", "veach-mis", RT_TEST_DATA_DIR "/scenes/principled.json",
+          RT_TEST_DATA_DIR "/scenes/lacquer.json", RT_TEST_DATA_DIR "/scenes/glass-instances.json",
+          RT_TEST_DATA_DIR "/scenes/sun.json", RT_TEST_DATA_DIR "/scenes/disks-and-cylinders.json"}) {
         const TracedScene scene(id);
         SCOPED_TRACE(id);
         compareEstimators(scene);

@@ -5,6 +5,7 @@
 
 #include "Common/Accel/AccelInput.h"
 #include "Common/Accel/AccelView.h"
+#include "Common/Shared/Shape/Rounds.h"
 #include "Common/Shared/Shape/Shapes.h"
 
 namespace rt::accel {
@@ -66,6 +67,17 @@ void fillLane(TriangleBlock& block, std::uint32_t lane, const AccelInput& input,
     for (int i = 0; i < 3; ++i) {
         setLane(block.vertex[i], lane, input.positions[vertices[i]]);
     }
+    block.primitive[lane] = index;
+}
+
+void fillLane(RoundBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
+    const shared::Round& round = input.rounds[index];
+    const shared::RoundFrame frame = shared::roundFrame(round.edgeU, round.edgeV, round.axis);
+    setLane(block.origin, lane, round.origin);
+    setLane(block.dualU, lane, frame.dualU);
+    setLane(block.dualV, lane, frame.dualV);
+    setLane(block.dualW, lane, frame.dualW);
+    block.hole[lane] = round.hole;
     block.primitive[lane] = index;
 }
 

@@ -42,6 +42,19 @@ Box boxOf(const shared::Quad& quad) {
     return grown(box, 32.0f); // the test of a quad is generous at its edges: shared::kQuadError
 }
 
+Box boxOf(const shared::Round& round) {
+    vec3 reach; // of the ellipse, along each axis
+    for (int a = 0; a < 3; ++a)
+        reach[a] = shared::sqrt(round.edgeU[a] * round.edgeU[a] + round.edgeV[a] * round.edgeV[a]);
+    Box box;
+    const vec3 end = round.hole < 0.0f ? round.origin + round.axis : round.origin;
+    box.add(round.origin - reach);
+    box.add(round.origin + reach);
+    box.add(end - reach);
+    box.add(end + reach);
+    return grown(box, 64.0f); // the test is generous at rims: shared::kRoundError
+}
+
 Box boxOf(vec3 vertex0, vec3 vertex1, vec3 vertex2) {
     Box box;
     box.add(vertex0);

@@ -17,18 +17,21 @@ TreeItems::TreeItems(const AccelInput& input, const shared::Geometry& geometry, 
       instances_(std::move(instances)),
       firstQuad_(geometry.sphereCount),
       firstTriangle_(firstQuad_ + geometry.quadCount),
-      firstInstance_(firstTriangle_ + geometry.triangleCount) {}
+      firstRound_(firstTriangle_ + geometry.triangleCount),
+      firstInstance_(firstRound_ + geometry.roundCount) {}
 
 LeafKind TreeItems::kind(std::uint32_t item) const {
     if (item < firstQuad_) return sphereKind(input_, geometry_.firstSphere + item);
     if (item < firstTriangle_) return LeafKind::Quad;
-    return item < firstInstance_ ? LeafKind::Triangle : LeafKind::Instance;
+    if (item < firstRound_) return LeafKind::Triangle;
+    return item < firstInstance_ ? LeafKind::Round : LeafKind::Instance;
 }
 
 std::uint32_t TreeItems::index(std::uint32_t item) const {
     if (item < firstQuad_) return geometry_.firstSphere + item;
     if (item < firstTriangle_) return geometry_.firstQuad + (item - firstQuad_);
-    if (item < firstInstance_) return geometry_.firstTriangle + (item - firstTriangle_);
+    if (item < firstRound_) return geometry_.firstTriangle + (item - firstTriangle_);
+    if (item < firstInstance_) return geometry_.firstRound + (item - firstRound_);
     return instances_[item - firstInstance_];
 }
 
@@ -42,6 +45,8 @@ Box TreeItems::box(std::uint32_t item, std::span<const Box> geometryBoxes) const
             return boxOf(input_.spheres[i], input_.motions[i]);
         case LeafKind::Quad:
             return boxOf(input_.quads[i]);
+        case LeafKind::Round:
+            return boxOf(input_.rounds[i]);
         case LeafKind::Instance:
             return boxOf(input_.instances[i], geometryBoxes[input_.instances[i].geometry]);
         case LeafKind::Triangle:

@@ -32,7 +32,7 @@ class TreeItems {
     const AccelInput& input_;
     shared::Geometry geometry_;
     std::vector<std::uint32_t> instances_;
-    std::uint32_t firstQuad_, firstTriangle_, firstInstance_; // items
+    std::uint32_t firstQuad_, firstTriangle_, firstRound_, firstInstance_; // items
 };
 
 } // namespace rt::accel

@@ -19,7 +19,7 @@ bool anyHit(const AccelView& view, const shared::Ray& ray, float tMax) {
 template <shared::Features kFeatures>
 shared::Hit bothHits(const AccelView& view, const shared::Ray& ray, const shared::vec3& shadowDirection,
                      float shadowEnd, bool& isOccluded) {
-    if (!view.isLinear) {
+    if (!view.isLinear || shared::has(kFeatures, shared::kRoundFeatures)) {
         isOccluded = anyHit<kFeatures>(view, {ray.origin, shadowDirection, ray.time}, shadowEnd);
         return closestHit<kFeatures>(view, ray, shared::kInfinity);
     }
@@ -45,7 +45,8 @@ Tracer tracer(shared::Features kinds) {
     if (covers(kFeatureTriangles)) return makeTracer<kFeatureTriangles>();
     if (covers(kBox)) return makeTracer<kBox>();
     if (covers(kStill)) return makeTracer<kStill>();
-    return makeTracer<kAll>();
+    if (covers(kAll)) return makeTracer<kAll>();
+    return makeTracer<kAll | kRoundFeatures>();
 }
 
 void closest(const AccelView& view, const shared::Ray* rays, const float* tMax, shared::Hit* hits, std::size_t count) {

@@ -56,7 +56,7 @@ RT_FN void forEachListedBlock(const LinearList<Block>& list, const Test& test) {
     for (const Block* block = list.blocks; block != list.blocks + list.count; ++block) test(*block);
 }
 
-// Calls test(block) for every block of the scene.
+// Calls test(block) for every block of the scene but those of disks and cylinders.
 template <class Test>
 RT_FN void forEachListedBlock(shared::Features features, const AccelView& view, const Test& test) {
     if (shared::has(features, shared::kFeatureSpheres)) forEachListedBlock(view.listedSpheres, test);
@@ -69,23 +69,26 @@ RT_FN void forEachListedBlock(shared::Features features, const AccelView& view, 
 
 RT_FN shared::Hit traceLinear(shared::Features features, const AccelView& view, const ShapeRay& ray, float tMax) {
     LaneBest best = noLaneHit(tMax);
-    forEachListedBlock(features, view,
-                       [&](const auto& block) { acceptLanes(intersectBlock(ray, block), block.primitive, best); });
+    const auto test = [&](const auto& block) { acceptLanes(intersectBlock(ray, block), block.primitive, best); };
+    forEachListedBlock(features, view, test);
+    if (shared::has(features, shared::kRoundFeatures)) forEachListedBlock(view.listedRounds, test);
     return nearestOfLanes(best, tMax);
 }
 
 RT_FN bool occludedLinear(shared::Features features, const AccelView& view, const ShapeRay& ray, float tMax) {
     const Float8 end = broadcast(tMax);
     Mask8 hits = end < end;
-    forEachListedBlock(features, view, [&](const auto& block) {
+    const auto test = [&](const auto& block) {
         const LaneHits lanes = intersectBlock(ray, block);
         hits = hits | (lanes.mask & (lanes.t < end));
-    });
+    };
+    forEachListedBlock(features, view, test);
+    if (shared::has(features, shared::kRoundFeatures)) forEachListedBlock(view.listedRounds, test);
     return bits(hits) != 0;
 }
 
 // Both for two rays from one point, on which most of the tests' work depends: what `ray` hits first, and whether
-// anything lies along `shadow` before shadowEnd.
+// anything lies along `shadow` before shadowEnd. Not where there are disks or cylinders.
 RT_FN shared::Hit traceLinearWithShadow(shared::Features features, const AccelView& view, const ShapeRay& ray,
                                         const ShapeRay& shadow, float shadowEnd, bool& isOccluded) {
     const Float8 end = broadcast(shadowEnd);

@@ -176,6 +176,8 @@ RT_FN void prefetchReference(shared::Features features, const AccelView& view, R
         prefetchBytes<sizeof(NearSphereBlock)>(view.nearSpheres + leafFirst(r));
     } else if (shared::has(features, shared::kFeatureQuads) && leafKind(r) == LeafKind::Quad) {
         prefetchBytes<sizeof(QuadBlock)>(view.quads + leafFirst(r));
+    } else if (shared::has(features, shared::kRoundFeatures) && leafKind(r) == LeafKind::Round) {
+        prefetchBytes<sizeof(RoundBlock)>(view.rounds + leafFirst(r));
     }
 }
 

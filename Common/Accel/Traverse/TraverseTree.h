@@ -49,6 +49,8 @@ RT_FN void traceLeaf(shared::Features features, const AccelView& view, Reference
         testLeaf(ray.shape, view.movingSpheres, leaf, shared::kSphere, instance, best);
     } else if (shared::has(features, kAnySpheres) && kind == LeafKind::NearSphere) {
         testLeaf(ray.shape, view.nearSpheres, leaf, shared::kSphere, instance, best);
+    } else if (shared::has(features, shared::kRoundFeatures) && kind == LeafKind::Round) {
+        testLeaf(ray.shape, view.rounds, leaf, shared::kRound, instance, best);
     } else if constexpr (World) {
         if (shared::has(features, shared::kFeatureInstances)) {
             const PlacedGeometry* placed = view.instances + leafFirst(leaf);
@@ -74,6 +76,8 @@ RT_FN bool occludedLeaf(shared::Features features, const AccelView& view, Refere
         return testLeafAny(ray.shape, view.movingSpheres, leaf, tMax);
     } else if (shared::has(features, kAnySpheres) && kind == LeafKind::NearSphere) {
         return testLeafAny(ray.shape, view.nearSpheres, leaf, tMax);
+    } else if (shared::has(features, shared::kRoundFeatures) && kind == LeafKind::Round) {
+        return testLeafAny(ray.shape, view.rounds, leaf, tMax);
     } else if constexpr (World) {
         if (shared::has(features, shared::kFeatureInstances)) {
             const PlacedGeometry* placed = view.instances + leafFirst(leaf);

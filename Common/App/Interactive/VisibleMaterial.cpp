@@ -9,6 +9,7 @@
 #include "Common/Scene/CameraRecord.h"
 #include "Common/Shared/Camera.h"
 #include "Common/Shared/Medium/Media.h"
+#include "Common/Shared/Shape/Rounds.h"
 #include "Common/Shared/Shape/Shapes.h"
 
 namespace rt::app {
@@ -51,7 +52,7 @@ class Search {
 
   private:
     bool isWorthIt(const shared::Geometry& g) {
-        tests_ += std::uint64_t{1} + g.sphereCount + g.quadCount + g.triangleCount;
+        tests_ += std::uint64_t{1} + g.sphereCount + g.quadCount + g.triangleCount + g.roundCount;
         return tests_ <= kMaxTests;
     }
 
@@ -83,6 +84,11 @@ class Search {
             const shared::QuadFrame frame = shared::quadFrame(quad.edgeU, quad.edgeV);
             take(shared::intersectQuad(ray, quad.corner, frame, nearest_).t, quad.material);
         });
+        forEach(g.firstRound, g.roundCount, [&](std::uint32_t i) {
+            const shared::Round& r = scene_.rounds[i];
+            const shared::RoundFrame frame = shared::roundFrame(r.edgeU, r.edgeV, r.axis);
+            take(shared::intersectRound(ray, r.origin, frame, r.hole, nearest_), r.material);
+        });
         const shared::TriangleRay sheared = shared::makeTriangleRay(ray.direction);
         forEach(g.firstTriangle, g.triangleCount, [&](std::uint32_t i) {
             const shared::uvec3 t = scene_.triangles[i];
@@ -103,6 +109,14 @@ class Search {
             for (const shared::vec3& p : {quad.corner, quad.corner + quad.edgeU, quad.corner + quad.edgeV,
                                           quad.corner + quad.edgeU + quad.edgeV})
                 box.add(p);
+        });
+        forEach(g.firstRound, g.roundCount, [&](std::uint32_t i) {
+            const shared::Round& r = scene_.rounds[i];
+            const shared::vec3 reach = shared::abs(r.edgeU) + shared::abs(r.edgeV);
+            for (const shared::vec3& center : {r.origin, r.hole < 0 ? r.origin + r.axis : r.origin}) {
+                box.add(center - reach);
+                box.add(center + reach);
+            }
         });
         forEach(g.firstTriangle, g.triangleCount, [&](std::uint32_t i) {
             for (int corner = 0; corner < 3; ++corner) box.add(scene_.positions[scene_.triangles[i][corner]]);

@@ -32,7 +32,7 @@ shared::vec3 middleOf(const shared::SpecularCaster& sphere) { // of its way whil
 
 // What a light irradiates the sphere's centre by; of the sky only patches are connected to.
 double irradianceAt(const shared::SpecularCaster& sphere, const shared::Light& light, const shared::LightBound& bound) {
-    const bool hasExtent = light.kind < shared::kLightPoint && light.kind != shared::kLightSky;
+    const bool hasExtent = light.kind <= shared::kLightEllipsoid && light.kind != shared::kLightSky;
     return hasExtent ? shared::lightContribution(bound, middleOf(sphere), shared::vec3(0.0f)) : 0.0f;
 }
 

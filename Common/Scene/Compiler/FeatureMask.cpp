@@ -57,6 +57,10 @@ Features ofLight(const shared::Light& light) {
             return shared::kFeatureTriangleLights;
         case shared::kLightEllipsoid:
             return shared::kFeatureEllipsoidLights;
+        case shared::kLightDisk:
+            return shared::kFeatureDiskLights;
+        case shared::kLightCylinder:
+            return shared::kFeatureCylinderLights;
         case shared::kLightPoint:
         case shared::kLightSpot:
         case shared::kLightDirectional:
@@ -83,6 +87,8 @@ shared::Features featureMask(const CompiledScene& scene) {
     need(!scene.sphereMotions.empty(), shared::kFeatureMovingSpheres);
     need(!scene.quads.empty(), shared::kFeatureQuads);
     need(!scene.triangles.empty(), shared::kFeatureTriangles);
+    for (const shared::Round& round : scene.rounds)
+        need(true, round.hole >= 0 ? shared::kFeatureDisks : shared::kFeatureCylinders);
     need(!scene.instances.empty(), shared::kFeatureInstances);
     need(!scene.media.empty(), shared::kFeatureVolumes);
     need(scene.camera.defocusAngle > 0, shared::kFeatureThinLens);

@@ -87,7 +87,8 @@ std::size_t InstancePlan::primitiveCount(const std::vector<ObjectDesc>& objects)
             sum += primitiveCount(group->objects);
         else if (std::holds_alternative<BoxDesc>(shape))
             sum += 6;
-        else if (std::holds_alternative<SphereDesc>(shape) || std::holds_alternative<QuadDesc>(shape))
+        else if (std::holds_alternative<SphereDesc>(shape) || std::holds_alternative<QuadDesc>(shape) ||
+                 std::holds_alternative<DiskDesc>(shape) || std::holds_alternative<CylinderDesc>(shape))
             sum += 1;
     }
     return sum;

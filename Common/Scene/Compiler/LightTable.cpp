@@ -24,7 +24,7 @@ shared::Light emptyLight(std::uint32_t kind) {
 }
 
 bool isFlat(const shared::Light& light) {
-    return light.kind == shared::kLightQuad || light.kind == shared::kLightTriangle;
+    return light.kind == shared::kLightQuad || light.kind == shared::kLightTriangle || light.kind == shared::kLightDisk;
 }
 
 // Flux in the surrounding space.
@@ -76,6 +76,29 @@ shared::LightBound punctualBound(const shared::Light& light) {
     return bound;
 }
 
+// Of a disk or cylinder. A cylinder's intensity is greatest across its axis: emission times diameter times height,
+// which is its area over pi.
+shared::LightBound roundBound(const shared::Light& light, shared::LightBound bound) {
+    const glm::dvec3 u(light.edgeU), v(light.edgeV);
+    const double uu = glm::dot(u, u), vv = glm::dot(v, v);
+    const double radius = std::sqrt(0.5 * (uu + vv) + std::hypot(0.5 * (uu - vv), glm::dot(u, v)));
+    const double luminous = luminance(light.emission);
+    bound.center = light.position;
+    if (light.kind == shared::kLightDisk) {
+        bound.radius = static_cast<float>(radius);
+        bound.axis = light.normal;
+        bound.twoSided = light.sides == shared::kSidesBoth ? 1.0f : 0.0f;
+        bound.intensity = static_cast<float>(luminous * light.area);
+    } else {
+        bound.center += 0.5f * light.normal;
+        bound.radius = static_cast<float>(radius + 0.5 * glm::length(light.normal));
+        const double walls = light.sides == shared::kSidesBoth ? 2 : 1;
+        bound.intensity = static_cast<float>(luminous * walls * light.area / std::numbers::pi);
+    }
+    bound.radius *= 1 + 4 * shared::kEpsilon;
+    return bound;
+}
+
 shared::LightBound boundOf(const shared::Light& light) {
     if (shared::isPunctual(shared::kFeatureAll, light)) return punctualBound(light);
     shared::LightBound bound{};
@@ -88,6 +111,7 @@ shared::LightBound boundOf(const shared::Light& light) {
         bound.intensity = static_cast<float>(luminous * 0.25 * light.area);
         return bound;
     }
+    if (light.kind == shared::kLightCylinder || light.kind == shared::kLightDisk) return roundBound(light, bound);
     if (!isFlat(light)) {
         bound.center = light.position + 0.5f * light.edgeU; // the middle of a moving sphere's way
         bound.radius = light.radius + 0.5f * glm::length(light.edgeU);
@@ -152,6 +176,37 @@ shared::Light quadLight(const shared::Quad& quad) {
     light.edgeV = quad.edgeV;
     light.normal = quad.normal;
     light.area = static_cast<float>(glm::length(glm::cross(glm::dvec3(quad.edgeU), glm::dvec3(quad.edgeV))));
+    return light;
+}
+
+shared::Light diskLight(const shared::Round& disk) {
+    shared::Light light = emptyLight(shared::kLightDisk);
+    light.position = disk.origin;
+    light.edgeU = disk.edgeU;
+    light.edgeV = disk.edgeV;
+    light.normal = disk.axis;
+    light.radius = disk.hole;
+    const glm::dvec3 u(disk.edgeU), v(disk.edgeV);
+    const double hole = disk.hole;
+    light.area = static_cast<float>(std::numbers::pi * glm::length(glm::cross(u, v)) * (1 - hole) * (1 + hole));
+    return light;
+}
+
+shared::Light cylinderLight(const shared::Round& cylinder) {
+    constexpr int kSteps = 256; // of its circumference: the sum over a period converges fast
+    shared::Light light = emptyLight(shared::kLightCylinder);
+    light.position = cylinder.origin;
+    light.edgeU = cylinder.edgeU;
+    light.edgeV = cylinder.edgeV;
+    light.normal = cylinder.axis;
+    const glm::dvec3 u(cylinder.edgeU), v(cylinder.edgeV), w(cylinder.axis);
+    double area = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double turn = 2 * std::numbers::pi * i / kSteps;
+        area += glm::length(glm::cross(std::cos(turn) * v - std::sin(turn) * u, w)) * 2 * std::numbers::pi / kSteps;
+    }
+    light.area = static_cast<float>(area);
+    light.radius = static_cast<float>(std::sqrt(area / (4 * std::numbers::pi)));
     return light;
 }
 

@@ -18,6 +18,8 @@ double emittingArea(const shared::Light& light);
 shared::Light sphereLight(const shared::Sphere& sphere, const shared::vec3& motion);
 shared::Light ellipsoidLight(const Affine& toWorld); // of the unit sphere
 shared::Light quadLight(const shared::Quad& quad);
+shared::Light diskLight(const shared::Round& disk);
+shared::Light cylinderLight(const shared::Round& cylinder);
 shared::Light triangleLight(const shared::vec3& a, const shared::vec3& b, const shared::vec3& c);
 
 // Punctual lights, but for where the scene is (placeDirectionalLights). Directions, of unit length, are those in which

@@ -20,6 +20,7 @@ namespace rt::scene {
 namespace {
 
 constexpr double kMinRadius = 1e-9;
+constexpr double kLeastVolume = 1e-4; // of what a disk's or cylinder's half axes span, over that at right angles
 constexpr std::size_t kPieces = 4096; // room for what huge surfaces are divided into: arrays that grow are copied
 
 bool isExcluded(Part part, bool isShareable) {
@@ -38,6 +39,13 @@ bool isInvertible(const shared::Light& light) {
         if (!(glm::length(shared::toSphere(e, shared::fromSphere(e, unit)) - unit) < 1e-3f)) return false;
     }
     return true;
+}
+
+// Columns: two directions across a third, of unit length, and that; the first two as shared::makeFrame() has them.
+glm::dmat3 frameAround(const glm::dvec3& n) {
+    const double s = std::signbit(n.z) ? -1 : 1;
+    const double a = -1 / (s + n.z), b = n.x * n.y * a;
+    return {glm::dvec3(1 + s * n.x * n.x * a, s * b, -s * n.x), glm::dvec3(b, s + n.y * n.y * a, -n.y), n};
 }
 
 // The factor by which a map scales a sphere, when the image is a sphere again; `isOriented`: its texture shows a
@@ -92,6 +100,7 @@ std::uint32_t PrimitiveSink::appendLight(shared::Light light, std::uint32_t mate
 void PrimitiveSink::expect(const PrimitiveCounts& counts) {
     reserveLarge(out_.spheres, counts.spheres);
     reserveLarge(out_.quads, counts.quads);
+    reserveLarge(out_.rounds, counts.rounds);
     const auto makeRoom = [](auto& array, std::size_t count) {
         if (count > 0) reserveLarge(array, count + kPieces);
     };
@@ -240,6 +249,62 @@ void PrimitiveSink::quad(const glm::dvec3& corner, const glm::dvec3& u, const gl
     for (const glm::dvec3& vertex : {c, c + e, c + f, c + e + f}) bounds_.add(vertex);
 }
 
+// ---- disks and cylinders -------------------------------------------------------------------------------------------
+
+void PrimitiveSink::add(const DiskDesc& disk, const Placement& at) {
+    if (isExcluded(at.part, !emits(materials_.find(disk.material)))) return;
+    const Affine map = at.outer * at.local;
+    const glm::dmat3 frame = frameAround(glm::normalize(disk.normal));
+    const glm::dvec3 u = map.vector(disk.radius * frame[0]), v = map.vector(disk.radius * frame[1]);
+    const glm::dvec3 normal = glm::cross(u, v);
+    shared::Round record{};
+    record.origin = shared::vec3(map.point(disk.center));
+    record.edgeU = shared::vec3(u);
+    record.edgeV = shared::vec3(v);
+    record.axis = shared::vec3(glm::normalize(map.mirrors() ? -normal : normal));
+    record.hole = static_cast<float>(disk.innerRadius / disk.radius);
+    round(record, materialOf(disk.material, at), disk.light);
+}
+
+void PrimitiveSink::add(const CylinderDesc& cylinder, const Placement& at) {
+    if (isExcluded(at.part, !emits(materials_.find(cylinder.material)))) return;
+    const Affine map = at.outer * at.local;
+    const glm::dvec3 axis = cylinder.top - cylinder.base;
+    const glm::dmat3 frame = frameAround(glm::normalize(axis));
+    shared::Round record{};
+    record.origin = shared::vec3(map.point(cylinder.base));
+    record.edgeU = shared::vec3(map.vector(cylinder.radius * frame[0]));
+    record.edgeV = shared::vec3(map.vector(cylinder.radius * frame[1]));
+    record.axis = shared::vec3(map.vector(axis));
+    record.hole = -1;
+    round(record, materialOf(cylinder.material, at), cylinder.light);
+}
+
+void PrimitiveSink::round(shared::Round record, const MaterialDesc& material, bool light) {
+    interruptionPoint();
+    const glm::dvec3 o(record.origin), u(record.edgeU), v(record.edgeV), w(record.axis);
+    const double volume = std::abs(glm::dot(glm::cross(u, v), w));
+    const double shortest = std::min({glm::length(u), glm::length(v), glm::length(w)});
+    const bool isUsable = representable(o) && representable(u) && representable(v) && representable(w);
+    if (!isUsable || !(shortest >= kMinRadius) ||
+        !(volume >= kLeastVolume * glm::length(u) * glm::length(v) * glm::length(w))) {
+        ++dropped_.rounds;
+        return;
+    }
+    const bool isDisk = record.hole >= 0;
+    record.material = materials_.index(material);
+    record.light = shared::kNone;
+    if (isLight(record.material, light))
+        record.light = appendLight(isDisk ? diskLight(record) : cylinderLight(record), record.material);
+    out_.rounds.push_back(record);
+    // Of the ellipse's image along each axis.
+    const glm::dvec3 reach = glm::sqrt(u * u + v * v);
+    for (const glm::dvec3& center : {o, isDisk ? o : o + w}) {
+        bounds_.add(center - reach);
+        bounds_.add(center + reach);
+    }
+}
+
 // ---- meshes --------------------------------------------------------------------------------------------------------
 
 void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at) {
@@ -285,10 +350,12 @@ Bounds PrimitiveSink::finishGeometry() {
         geometry.firstSphere = last.firstSphere + last.sphereCount;
         geometry.firstQuad = last.firstQuad + last.quadCount;
         geometry.firstTriangle = last.firstTriangle + last.triangleCount;
+        geometry.firstRound = last.firstRound + last.roundCount;
     }
     geometry.sphereCount = static_cast<std::uint32_t>(out_.spheres.size()) - geometry.firstSphere;
     geometry.quadCount = static_cast<std::uint32_t>(out_.quads.size()) - geometry.firstQuad;
     geometry.triangleCount = static_cast<std::uint32_t>(out_.triangles.size()) - geometry.firstTriangle;
+    geometry.roundCount = static_cast<std::uint32_t>(out_.rounds.size()) - geometry.firstRound;
     out_.geometries.push_back(geometry);
     const Bounds bounds = bounds_;
     bounds_ = {};
@@ -303,6 +370,8 @@ void PrimitiveSink::appendNotices(std::vector<std::string>& notices) const {
          "spheres without a usable centre or radius were dropped");
     note(dropped_.quads, "quad without area was dropped", "quads without area were dropped");
     note(dropped_.triangles, "triangle without area was dropped", "triangles without area were dropped");
+    note(dropped_.rounds, "disk or cylinder without a usable place or extent was dropped",
+         "disks or cylinders without a usable place or extent were dropped");
     note(dropped_.lights, "light without a usable position or direction was dropped",
          "lights without a usable position or direction were dropped");
     note(unsampledEllipsoids_, "emissive sphere is scaled so unequally that light sampling leaves it out",

@@ -35,7 +35,7 @@ struct Ellipsoid {
 };
 
 struct PrimitiveCounts {
-    std::size_t spheres = 0, quads = 0, triangles = 0;
+    std::size_t spheres = 0, quads = 0, triangles = 0, rounds = 0;
     std::size_t positions = 0, normals = 0, uvs = 0, colors = 0, tangents = 0; // of meshes
 };
 
@@ -50,6 +50,8 @@ class PrimitiveSink {
     void add(const SphereSetDesc& spheres, const Placement& at);
     void add(const QuadDesc& quad, const Placement& at);
     void add(const BoxDesc& box, const Placement& at);
+    void add(const DiskDesc& disk, const Placement& at);
+    void add(const CylinderDesc& cylinder, const Placement& at);
     // One surface of a mesh with one material.
     void add(const MeshData& mesh, const MaterialDesc& material, bool light, const Placement& at);
 
@@ -72,6 +74,7 @@ class PrimitiveSink {
     void ellipsoid(Affine toWorld, const SphereFrame& frame);
     void quad(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, const MaterialDesc& material,
               bool light, const Affine& map);
+    void round(shared::Round record, const MaterialDesc& material, bool light);
     void surface(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at, bool mayBeDivided);
     struct VertexUse;
     shared::Mesh meshRecord(const MeshData& data, const MaterialDesc& material, std::size_t triangleCount,
@@ -91,7 +94,7 @@ class PrimitiveSink {
     Bounds bounds_;
     std::vector<Ellipsoid> ellipsoids_;
     struct {
-        std::uint64_t spheres = 0, quads = 0, triangles = 0, tinySpheres = 0, lights = 0;
+        std::uint64_t spheres = 0, quads = 0, triangles = 0, rounds = 0, tinySpheres = 0, lights = 0;
     } dropped_;
     std::uint64_t unsampledEllipsoids_ = 0;
 };

@@ -131,6 +131,8 @@ class Compiler {
                 sum.quads += times;
             else if (std::holds_alternative<BoxDesc>(shape))
                 sum.quads += 6 * times;
+            else if (std::holds_alternative<DiskDesc>(shape) || std::holds_alternative<CylinderDesc>(shape))
+                sum.rounds += times;
             else if (const auto* group = std::get_if<GroupDesc>(&shape))
                 count(group->objects, times, sum);
             else if (const auto* mesh = std::get_if<MeshDesc>(&shape))

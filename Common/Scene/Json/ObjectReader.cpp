@@ -64,6 +64,12 @@ Surface readSurface(Surface surface, const JsonNode& node, const SceneReferences
     return surface;
 }
 
+glm::dvec3 readDirection(const JsonNode& node) {
+    const glm::dvec3 direction = node.vector();
+    if (!(glm::length(direction) > 0)) node.failValue("a vector that is not 0");
+    return direction;
+}
+
 std::vector<glm::dvec3> readVectors(const JsonNode& node) {
     const std::vector<double> values = node.numbers(3);
     std::vector<glm::dvec3> vectors(values.size() / 3);
@@ -116,6 +122,30 @@ BoxDesc readBox(const JsonNode& node) {
     box.min = shape.min;
     box.max = shape.max;
     return box;
+}
+
+DiskDesc readDisk(const JsonNode& node) {
+    node.expectKeys({"type", "center", "normal", "radius", "inner_radius", "material", "light"});
+    DiskDesc disk;
+    disk.center = node.at("center").vector();
+    disk.normal = readDirection(node.at("normal"));
+    disk.radius = node.at("radius").positive();
+    if (const auto inner = node.find("inner_radius")) {
+        disk.innerRadius = inner->number();
+        if (!(disk.innerRadius >= 0 && disk.innerRadius < disk.radius))
+            inner->failValue("a number from 0 to below radius");
+    }
+    return disk;
+}
+
+CylinderDesc readCylinder(const JsonNode& node) {
+    node.expectKeys({"type", "base", "top", "radius", "material", "light"});
+    CylinderDesc cylinder;
+    cylinder.base = node.at("base").vector();
+    cylinder.top = node.at("top").vector();
+    cylinder.radius = node.at("radius").positive();
+    if (!(glm::length(cylinder.top - cylinder.base) > 0)) node.fail("base and top must be apart");
+    return cylinder;
 }
 
 // ---- meshes --------------------------------------------------------------------------------------------------------
@@ -200,12 +230,6 @@ MediumDesc readMedium(const JsonNode& node, const SceneReferences& references) {
     return medium;
 }
 
-glm::dvec3 readDirection(const JsonNode& node) {
-    const glm::dvec3 direction = node.vector();
-    if (!(glm::length(direction) > 0)) node.failValue("a vector that is not 0");
-    return direction;
-}
-
 PointLightDesc readPointLight(const JsonNode& node) {
     node.expectKeys({"type", "position", "intensity"});
     return {node.at("position").vector(), node.at("intensity").vectorWithin(0, kLargest)};
@@ -249,11 +273,14 @@ InstanceDesc readInstance(const JsonNode& node, const SceneReferences& reference
 }
 
 ObjectDesc readObject(const JsonNode& node, const SceneReferences& references) {
-    const std::string type = node.at("type").oneOf({"sphere", "spheres", "quad", "box", "mesh", "medium", "point_light",
-                                                    "spot_light", "directional_light", "group", "instance"});
+    const std::string type =
+        node.at("type").oneOf({"sphere", "spheres", "quad", "box", "disk", "cylinder", "mesh", "medium", "point_light",
+                               "spot_light", "directional_light", "group", "instance"});
     if (type == "sphere") return {readSurface(readSphere(node), node, references)};
     if (type == "spheres") return {readSurface(readSphereSet(node), node, references)};
     if (type == "box") return {readSurface(readBox(node), node, references)};
+    if (type == "disk") return {readSurface(readDisk(node), node, references)};
+    if (type == "cylinder") return {readSurface(readCylinder(node), node, references)};
     if (type == "mesh") return {readMesh(node, references)};
     if (type == "medium") return {readMedium(node, references)};
     if (type == "point_light") return {readPointLight(node)};

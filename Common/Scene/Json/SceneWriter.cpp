@@ -251,6 +251,17 @@ OrderedJson json(const SphereSetDesc& spheres) {
 OrderedJson json(const BoxDesc& box) {
     return withSurface({{"type", "box"}, {"min", json(box.min)}, {"max", json(box.max)}}, box);
 }
+OrderedJson json(const DiskDesc& disk) {
+    OrderedJson out = {
+        {"type", "disk"}, {"center", json(disk.center)}, {"normal", json(disk.normal)}, {"radius", disk.radius}};
+    setUnless(out, "inner_radius", disk.innerRadius, 0.0);
+    return withSurface(std::move(out), disk);
+}
+OrderedJson json(const CylinderDesc& cylinder) {
+    return withSurface(
+        {{"type", "cylinder"}, {"base", json(cylinder.base)}, {"top", json(cylinder.top)}, {"radius", cylinder.radius}},
+        cylinder);
+}
 OrderedJson json(const MeshDesc& mesh) {
     OrderedJson out = {{"type", "mesh"}};
     if (const auto* source = std::get_if<MeshFile>(&mesh.source)) {

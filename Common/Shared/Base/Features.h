@@ -45,7 +45,11 @@
     FEATURE(QuadLights, 18u, "quad-lights")           \
     FEATURE(TriangleLights, 19u, "triangle-lights")   \
     FEATURE(EllipsoidLights, 20u, "ellipsoid-lights") \
-    FEATURE(PunctualLights, 21u, "punctual-lights")
+    FEATURE(PunctualLights, 21u, "punctual-lights")   \
+    FEATURE(Disks, 23u, "disks")                      \
+    FEATURE(Cylinders, 24u, "cylinders")              \
+    FEATURE(DiskLights, 25u, "disk-lights")           \
+    FEATURE(CylinderLights, 26u, "cylinder-lights")
 
 // What only some materials of a kind have: bits from the upper end of a word whose bit k stands for materials of kind k,
 // see their table, Common/Shared/Material/Materials.h.
@@ -91,6 +95,8 @@ RT_METHODS(RT_METHOD)
 #define RT_OR_FEATURE(Name, bit, name) | kFeature##Name
 RT_CONST Features kTexturedFeatures = kFeatureNone RT_TEXTURE_FEATURES(RT_OR_FEATURE);
 #undef RT_OR_FEATURE
+
+RT_CONST Features kRoundFeatures = kFeatureDisks | kFeatureCylinders;
 
 RT_FN bool has(Features features, Features bits) {
     return (features & bits) != kFeatureNone;

@@ -11,6 +11,7 @@
     PLAIN(Sphere, spheres, loadSphere, "spheres") \
     OWN(vec3, sphereMotions, loadSphereMotion, "motion") /* displacement over the shutter; empty, or one a sphere */ \
     PLAIN(Quad, quads, loadQuad, "quads") \
+    PLAIN(Round, rounds, loadRound, "disks and cylinders") \
     PLAIN(vec3, positions, loadPosition, "vertices") \
     PLAIN(vec3, normals, loadNormal, "normals") /* unit; see Mesh */ \
     PLAIN(vec2, uvs, loadUv, "texture coordinates") \

@@ -4,6 +4,7 @@
 #define RT_SHARED_TYPES_H
 #include "Common/Shared/Base/Shim.h"
 #include "Common/Shared/Material/PrincipledParameters.h"
+#include "Common/Shared/Shape/ShapeRecords.h"
 
 RT_SHARED_BEGIN
 
@@ -17,26 +18,9 @@ const uint kNone = 0xffffffffu;       // "no such index"
 const uint kSphere = 0u;
 const uint kQuad = 1u;
 const uint kTriangle = 2u;
+const uint kRound = 3u;
 
 // ---- geometry ------------------------------------------------------------------------------------------------------
-
-struct Sphere {
-    vec3 center;  // at time 0
-    float radius; // > 0
-    uint material;
-    uint light;  // index into lights, or kNone
-    float power; // |center|^2 - radius^2, not of their rounded values, of a near sphere; kInfinity of any other
-};
-
-// Parallelogram corner + a edgeU + b edgeV, a and b in [0,1]; the front is the side that edgeU x edgeV points to.
-struct Quad {
-    vec3 corner;
-    vec3 edgeU;
-    vec3 edgeV;
-    vec3 normal; // unit, edgeU x edgeV
-    uint material;
-    uint light;
-};
 
 // What the triangles of one mesh and one material share. A triangle's front is the side from which its vertices turn
 // counter-clockwise. Vertex attributes exist per vertex or not at all for a whole mesh.
@@ -61,6 +45,8 @@ struct Geometry {
     uint quadCount;
     uint firstTriangle;
     uint triangleCount;
+    uint firstRound;
+    uint roundCount;
 };
 
 // Affine placement of a geometry; x' = row . (x, 1). Both directions were rounded once, from double.
@@ -152,23 +138,27 @@ const uint kLightQuad = 1u;
 const uint kLightTriangle = 2u;
 const uint kLightSky = 3u;       // the sky image
 const uint kLightEllipsoid = 4u; // the unit sphere under an affine map
+const uint kLightDisk = 5u;
+const uint kLightCylinder = 6u;
 // Punctual lights, which no ray can hit: kinds from here on.
-const uint kLightPoint = 5u;
-const uint kLightSpot = 6u;
-const uint kLightDirectional = 7u;
+const uint kLightPoint = 7u;
+const uint kLightSpot = 8u;
+const uint kLightDirectional = 9u;
 
 // An emitter with its geometry in world space, or an importance target (emission zero).
 struct Light {
     uint kind;
     uint material; // kNone for the sky, punctual lights and importance targets
-    vec3 position; // sphere: centre at time 0; quad: corner; triangle: vertex 0; ellipsoid: centre; directional light:
-                   // centre of the scene
+    vec3 position; // sphere: centre at time 0; quad: corner; triangle: vertex 0; ellipsoid, disk: centre; cylinder:
+                   // that of its base; directional light: centre of the scene
     vec3 edgeU;    // quad; triangle: vertex 1 - vertex 0; sphere: displacement over the shutter; ellipsoid: image of x;
-                   // spot: 1 - cos(outer angle), 1 / (cos(inner angle) - cos(outer angle)), 0
-    vec3 edgeV;    // quad; triangle: vertex 2 - vertex 0; ellipsoid: image of y; near sphere: its power, 1, 0
-    vec3 normal;   // unit, front side; quad and triangle; ellipsoid: image of z; unit direction in which a spot or
-                   // directional light shines
-    float radius;  // sphere; ellipsoid: that of a sphere of the same area; directional light: of the scene
+                   // disk, cylinder: as in Round; spot: 1 - cos(outer angle), 1 / (cos(inner) - cos(outer)), 0
+    vec3 edgeV;    // quad; triangle: vertex 2 - vertex 0; ellipsoid: image of y; disk, cylinder: as in Round; near
+                   // sphere: its power, 1, 0
+    vec3 normal;   // unit, front side; quad, triangle, disk; ellipsoid: image of z; cylinder: from base to top; unit
+                   // direction in which a spot or directional light shines
+    float radius;  // sphere; ellipsoid, cylinder: that of a sphere of the same area; disk: Round::hole; directional
+                   // light: of the scene
     float area;    // world units squared, one side; of an ellipsoid within 1.1 %; of a punctual light its flux over
                    // pi times its emission
     vec3 emission; // radiance, mean over the surface if textured; point: radiant intensity; spot: that on its axis;
@@ -385,8 +375,8 @@ struct Ray {
 // The nearest intersection, as the engine's traversal reports it.
 struct Hit {
     float t;        // ray parameter; negative: nothing was hit
-    uint kind;      // kSphere, kQuad, kTriangle
-    uint primitive; // index into spheres, quads or triangles of the whole scene
+    uint kind;      // kSphere, kQuad, kTriangle, kRound
+    uint primitive; // index into spheres, quads, triangles or rounds of the whole scene
     uint instance;  // kNone: the world's own geometry
     float u;        // quad: along edgeU; triangle: weight of vertex 1
     float v;        // quad: along edgeV; triangle: weight of vertex 2

@@ -55,6 +55,27 @@ RT_FN LightIntersection intersectFlatLight(RT_IN(Light) light, vec3 position, ve
     return c;
 }
 
+RT_FN LightIntersection intersectRoundLight(RT_IN(Light) light, vec3 position, float time, vec3 wi) {
+    Ray ray;
+    ray.origin = position;
+    ray.direction = wi;
+    ray.time = time;
+    Round r;
+    r.origin = light.position;
+    r.edgeU = light.edgeU;
+    r.edgeV = light.edgeV;
+    r.axis = light.normal;
+    r.hole = light.kind == kLightDisk ? light.radius : -1.0f;
+    r.material = light.material;
+    r.light = kNone;
+    float t = intersectRound(ray, r.origin, roundFrame(r.edgeU, r.edgeV, r.axis), r.hole, kInfinity);
+    LightIntersection c;
+    c.distance = max(t, 0.0f);
+    c.normal = light.normal;
+    if (t > 0.0f) c.normal = roundPoint(ray, r, t).normal;
+    return c;
+}
+
 // Density over solid angle of wi under sampleLight; 0 where wi misses the light.
 RT_FN float lightPdfAlong(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                           float time, vec3 wi) {
@@ -63,6 +84,9 @@ RT_FN float lightPdfAlong(Features features, RT_IN(RenderParams) params, RT_IN(L
         c = intersectSphereLight(light, position, time, wi);
     } else if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
         c = intersectEllipsoidLight(light, position, wi);
+    } else if (has(features, kRoundLightFeatures) && isRoundLight(features, light)) {
+        if (!isCylinderLight(features, light) && !isLit(light, position)) return 0.0f;
+        c = intersectRoundLight(light, position, time, wi);
     } else {
         if (!isLit(light, position)) return 0.0f;
         c = intersectFlatLight(light, position, wi);

@@ -4,6 +4,7 @@
 #define RT_SHARED_LIGHTS_H
 #include "Common/Shared/Light/EllipsoidLight.h"
 #include "Common/Shared/Light/QuadLight.h"
+#include "Common/Shared/Light/RoundLight.h"
 #include "Common/Shared/Light/SphereLight.h"
 #include "Common/Shared/Light/TriangleLight.h"
 
@@ -25,6 +26,7 @@ RT_FN vec3 lightPointError(Features features, RT_IN(Light) light) {
         float reach = maxComponent(abs(light.position) + abs(light.edgeU)) + light.radius;
         return vec3(32.0f * kEpsilon * reach);
     }
+    if (has(features, kRoundLightFeatures) && isRoundLight(features, light)) return roundLightError(light);
     return 32.0f * kEpsilon * (abs(light.position) + abs(light.edgeU) + abs(light.edgeV)) +
            extentError(light.edgeU, light.edgeV);
 }
@@ -51,6 +53,10 @@ RT_FN LightSample sampleLight(Features features, RT_IN(RenderParams) params, RT_
         s = sampleSphereLight(features, params, light, position, normal, time, u);
     } else if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
         s = sampleEllipsoidLight(params, light, position, normal, u);
+    } else if (has(features, kRoundLightFeatures) && isRoundLight(features, light)) {
+        if (isCylinderLight(features, light) || isLit(light, position)) {
+            s = sampleRoundLight(features, params, light, position, normal, u);
+        }
     } else if (light.kind != kLightSky && isLit(light, position)) {
         vec3 corner = light.position - position;
         if (isFlatProjected(features, params, light, corner, normal)) {
@@ -77,6 +83,9 @@ RT_FN float lightPdf(Features features, RT_IN(RenderParams) params, RT_IN(Light)
     }
     if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
         return ellipsoidLightPdf(params, light, position, normal, wi, distance, lightNormal);
+    }
+    if (has(features, kRoundLightFeatures) && isRoundLight(features, light)) {
+        return roundLightPdf(features, params, light, position, normal, wi, distance, lightNormal);
     }
     vec3 corner = light.position - position;
     if (isFlatProjected(features, params, light, corner, normal)) return flatProjectedPdf(light, corner, normal, wi);

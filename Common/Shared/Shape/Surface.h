@@ -7,6 +7,7 @@
 #include "Common/Shared/Base/Types.h"
 #include "Common/Shared/Medium/Media.h"
 #include "Common/Shared/Shape/Ellipsoids.h"
+#include "Common/Shared/Shape/Rounds.h"
 #include "Common/Shared/Shape/Shapes.h"
 #include "Common/Shared/Texture/Textures.h"
 
@@ -148,9 +149,30 @@ RT_FN Surface triangleSurface(Features features, SceneRef scene, RT_IN(Hit) hit)
     return s;
 }
 
+RT_FN Surface roundSurface(Features features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
+    RT_IN(Round) r = loadRound(scene, hit.primitive);
+    RoundPoint point = roundPoint(ray, r, hit.t);
+    Surface s;
+    s.position = point.position;
+    s.error = vec3(point.error);
+    s.normal = point.normal;
+    s.shading = point.normal;
+    s.uv = vec2(0.0f, 0.0f);
+    if (has(features, kFeatureImages)) s.uv = roundUv(point.place, r.hole);
+    if (has(features, kFeatureVertexAttributes)) {
+        // u runs around from edgeU over edgeV.
+        vec3 around = r.edgeV * point.place.x - r.edgeU * point.place.y;
+        addDetail(s.uv, vec4(around, dot(cross(r.edgeU, r.edgeV), r.axis) < 0.0f ? -1.0f : 1.0f), s);
+    }
+    s.material = r.material;
+    s.light = r.light;
+    return s;
+}
+
 RT_FN Surface primitiveSurface(Features features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
     if (has(features, kFeatureTriangles) && hit.kind == kTriangle) return triangleSurface(features, scene, hit);
     if (has(features, kFeatureQuads) && hit.kind == kQuad) return quadSurface(features, scene, hit);
+    if (has(features, kRoundFeatures) && hit.kind == kRound) return roundSurface(features, scene, ray, hit);
     return sphereSurface(features, scene, ray, hit);
 }
 

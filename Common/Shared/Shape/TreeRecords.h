@@ -11,8 +11,10 @@ RT_SHARED_BEGIN
 
 // What a child of a node is: another node (its index), or a run of primitives of one kind in their array.
 //   bit 31: leaf    30..29: kind    28..26: primitives - 1    25..0: index of the first
-// A leaf of kind kInstanceLeaf is a single instance, named by its index in the scene.
+// Two bits of kind are not enough for a leaf of kind 3: with a count of 1 it is an instance, named by its index in the
+// scene, and disks and cylinders, one less than the count, otherwise.
 const uint kInstanceLeaf = 3u; // beside kSphere, kQuad, kTriangle
+const uint kMaxRoundsOfLeaf = 7u;
 const uint kTreeLeaf = 0x80000000u;
 const uint kTreeKindShift = 29u;
 const uint kTreeCountShift = 26u;
@@ -33,6 +35,14 @@ RT_FN uint treeLeafFirst(uint leaf) {
 }
 RT_FN uint treeLeafCount(uint leaf) {
     return (leaf >> kTreeCountShift & (kTreeLeafSize - 1u)) + 1u;
+}
+
+RT_FN uint roundLeaf(uint first, uint count) {
+    return treeLeaf(kRound, first, count + 1u);
+}
+// Of a leaf of kind 3.
+RT_FN bool isRoundLeaf(uint leaf) {
+    return treeLeafCount(leaf) > 1u;
 }
 
 // ---- records -------------------------------------------------------------------------------------------------------
@@ -73,10 +83,18 @@ struct TreeTriangle {
     vec4 vertex2;
 };
 
+// See RoundFrame.
+struct TreeRound {
+    vec4 origin; // w: Round::hole
+    vec4 dualU;  // w: index of the primitive
+    vec4 dualV;
+    vec4 dualW;
+};
+
 // ---- lists ---------------------------------------------------------------------------------------------------------
 // Vectors of one array: two a sphere (center, radius, that is negative for near spheres; motion, index of the
 // primitive), two a quad whose edges run along axes (below), four a cuboid (below), then four of any other quad, three
-// a triangle, as above.
+// a triangle, four a disk or cylinder, as above.
 //
 // Quads along axes, those perpendicular to x first, then to y, to z: center and index of the primitive; half of what
 // they extend (intersectAxisQuad()) along the two axes that follow the perpendicular one in cyclic order.

@@ -1,0 +1,64 @@
+// Disks and cylinders as lights: their part in Lights.h and LightDensity.h. In GLSL only shaders that define
+// RT_HEAVY_FEATURES have the code, see Shim.h.
+#ifndef RT_SHARED_ROUND_LIGHT_H
+#define RT_SHARED_ROUND_LIGHT_H
+#ifdef RT_HEAVY_FEATURES
+#include "Common/Shared/Light/CylinderLight.h"
+#else
+#include "Common/Shared/Light/LightSample.h"
+#include "Common/Shared/Shape/Rounds.h"
+#endif
+
+RT_SHARED_BEGIN
+
+RT_CONST Features kRoundLightFeatures = kFeatureDiskLights | kFeatureCylinderLights;
+
+RT_FN bool isCylinderLight(Features features, RT_IN(Light) light) {
+    return has(features, kFeatureCylinderLights) && light.kind == kLightCylinder;
+}
+
+RT_FN bool isRoundLight(Features features, RT_IN(Light) light) {
+    return (has(features, kFeatureDiskLights) && light.kind == kLightDisk) || isCylinderLight(features, light);
+}
+
+// Bound of the error of a point on it, as lightPointError().
+RT_FN vec3 roundLightError(RT_IN(Light) light) {
+    vec3 extent = abs(light.position) + abs(light.edgeU) + abs(light.edgeV);
+    if (light.kind == kLightCylinder) extent += abs(light.normal);
+    return vec3(64.0f * kEpsilon * maxComponent(extent));
+}
+
+#ifdef RT_HEAVY_FEATURES
+
+// As sampleLight(), of a disk from its lit side.
+RT_FN LightSample sampleRoundLight(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
+                                   vec3 normal, vec2 u) {
+    if (isCylinderLight(features, light)) return sampleCylinderLight(params, light, position, normal, u);
+    return sampleDiskLight(params, light, position, normal, u);
+}
+
+RT_FN float roundLightPdf(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+                          vec3 wi, float distance, vec3 lightNormal) {
+    if (isCylinderLight(features, light)) {
+        return cylinderLightPdf(params, light, position, normal, wi, distance, lightNormal);
+    }
+    return diskLightPdf(params, light, position, normal, wi, distance);
+}
+
+#else
+
+RT_FN LightSample sampleRoundLight(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
+                                   vec3 normal, vec2 u) {
+    return noLightSample();
+}
+
+RT_FN float roundLightPdf(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+                          vec3 wi, float distance, vec3 lightNormal) {
+    return 0.0f;
+}
+
+#endif
+
+RT_SHARED_END
+
+#endif
