@@ -147,7 +147,7 @@ RT_FN LaneHits intersectBlock(const ShapeRay& ray, const QuadBlock& block) {
 // Disks and cylinders in their own coordinates: each lane takes what it is of both tests.
 RT_FN LaneHits intersectBlock(const ShapeRay& ray, const RoundBlock& block) {
     const Float8 zero = broadcast(0.0f), one = broadcast(1.0f), half = broadcast(0.5f);
-    const Float8 error = broadcast(shared::kRoundError);
+    const Float8 error = broadcast(shared::kRoundError), terms = broadcast(shared::kRimTerms);
     const Vector f = broadcast3(ray.origin) - load3(block.origin);
     const Vector d = broadcast3(ray.direction);
     const Vector rows[3] = {load3(block.dualU), load3(block.dualV), load3(block.dualW)};
@@ -158,14 +158,14 @@ RT_FN LaneHits intersectBlock(const ShapeRay& ray, const RoundBlock& block) {
     const Float8 plane = (zero - o.z) / w.z;
     const Float8 u = multiplyAdd(plane, w.x, o.x), v = multiplyAdd(plane, w.y, o.y);
     const Float8 squared = multiplyAdd(u, u, v * v);
-    const Float8 reach = multiplyAdd(error, one + absolute(o.x) + absolute(o.y), one);
+    const Float8 reach = multiplyAdd(error, terms + absolute(o.x) + absolute(o.y), one);
     const Mask8 isOnDisk = (zero <= hole) & (squared <= reach) & (hole * hole <= squared) & (zero < plane);
 
     const Float8 inverse = one / multiplyAdd(w.x, w.x, w.y * w.y);
     const Float8 middle = (zero - multiplyAdd(o.x, w.x, o.y * w.y)) * inverse;
     const Float8 x = multiplyAdd(middle, w.x, o.x), y = multiplyAdd(middle, w.y, o.y);
     const Float8 halfChord = squareRoot((one - multiplyAdd(x, x, y * y)) * inverse); // not a number beside it
-    const Float8 height = multiplyAdd(error, one + absolute(o.z), half);
+    const Float8 height = multiplyAdd(error, terms + absolute(o.z), half);
     const Float8 near = middle - halfChord, far = middle + halfChord;
     const Float8 fromMiddle = o.z - half;
     const Mask8 isNear = (zero < near) & (absolute(multiplyAdd(near, w.z, fromMiddle)) <= height);

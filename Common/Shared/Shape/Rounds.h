@@ -27,13 +27,15 @@ RT_FN vec3 toRound(RT_IN(RoundFrame) frame, vec3 v) {
     return vec3(dot(frame.dualU, v), dot(frame.dualV, v), dot(frame.dualW, v));
 }
 
-// How much rims are widened by, relative to the terms that coordinates are sums of: what rounding may take off them, so
-// that a disk and the cylinder that it closes leave no gap.
+// How much rims are widened by, relative to the terms that coordinates are sums of, and kRimTerms times that: what
+// rounding may take off them, those of the records included, so that a disk and the cylinder that it closes leave no
+// gap.
 const float kRoundError = 4.0f * kEpsilon;
+const float kRimTerms = 4.0f;
 
 // Whether w, of a ray from the coordinate `origin`, lies between base and top.
 RT_FN bool isOnCylinder(float w, float origin) {
-    return abs(w - 0.5f) <= 0.5f + kRoundError * (1.0f + abs(origin));
+    return abs(w - 0.5f) <= 0.5f + kRoundError * (kRimTerms + abs(origin));
 }
 
 // The nearest t in (0, tMax) where the ray meets the disk or cylinder, or -1; in its own coordinates. Half the chord
@@ -44,7 +46,7 @@ RT_FN float intersectRound(vec3 o, vec3 d, float hole, float tMax) {
         float u = o.x + t * d.x;
         float v = o.y + t * d.y;
         float squared = u * u + v * v;
-        bool isWithin = squared <= 1.0f + kRoundError * (1.0f + abs(o.x) + abs(o.y)) && squared >= hole * hole;
+        bool isWithin = squared <= 1.0f + kRoundError * (kRimTerms + abs(o.x) + abs(o.y)) && squared >= hole * hole;
         return isWithin && t > 0.0f && t < tMax ? t : -1.0f;
     }
     float inverse = 1.0f / (d.x * d.x + d.y * d.y); // infinite along the axis: then nothing below is a number
