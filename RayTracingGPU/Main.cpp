@@ -14,9 +14,9 @@
 #include "Common/App/Session/Session.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/RunMain.h"
-#include "Common/Render/ForwardingEngine.h"
 #include "RayTracingGPU/EngineChoice.h"
 #include "RayTracingGPU/GpuEngine.h"
+#include "RayTracingGPU/OwningEngine.h"
 #ifdef RT_HAS_WINDOW
 #include "Common/Gui/App.h"
 #endif
@@ -67,18 +67,6 @@ rt::ExitCode render(const rt::app::Options& options, rt::app::Communicator* rank
 
 #ifdef RT_HAS_WINDOW
 
-// An engine and the device that it alone uses.
-class OwningEngine final : public rt::app::ForwardingEngine {
-  public:
-    OwningEngine(const rt::vulkan::ContextOptions& options, rt::app::GpuEngineKind kind) : context_(options) {
-        engine_ = rt::gpu::makeGpuEngine(context_, {.engine = kind});
-    }
-    ~OwningEngine() override { engine_ = nullptr; } // before its device
-
-  private:
-    rt::vulkan::VulkanContext context_;
-};
-
 std::vector<rt::app::EngineDevice> suitableDevices() {
     const rt::vulkan::Instance instance(false);
     const std::vector<rt::vulkan::DeviceInfo> all = rt::vulkan::findDevices(instance);
@@ -97,7 +85,7 @@ rt::ExitCode showWindow(const rt::app::Options& options) {
     rt::gui::WindowProgram program;
     program.makeEngine = [&options](const rt::app::EngineChoice& choice) {
         const rt::vulkan::ContextOptions context{choice.device, options.validation, rt::gpu::neededBy(choice.kind)};
-        return std::make_unique<OwningEngine>(context, choice.kind);
+        return std::make_unique<rt::gpu::OwningEngine>(context, rt::gpu::GpuEngineOptions{.engine = choice.kind});
     };
     program.devices = suitableDevices();
     return rt::gui::runWindow(options, program);

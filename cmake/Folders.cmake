@@ -29,6 +29,9 @@ function(rt_add_library name folder)
         add_library(${name} STATIC ${sources})
         target_link_libraries(${name} PUBLIC ${arg_DEPENDS})
         target_compile_definitions(${name} PRIVATE ${tables})
+        # So that the Python module is linked from the very objects that the programs are.
+        set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
+                                                 VISIBILITY_INLINES_HIDDEN ON)
     else()
         add_library(${name} INTERFACE)
         target_link_libraries(${name} INTERFACE ${arg_DEPENDS})

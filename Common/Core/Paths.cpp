@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace rt {
 
@@ -22,6 +23,19 @@ fs::path firstOf(std::initializer_list<Place> places) {
     for (const auto& [variable, folder] : places)
         if (const char* value = std::getenv(variable); value && *value) return fs::path(value) / folder;
     return {};
+}
+
+fs::path library; // see findAssetsAround()
+
+// Where it may be from a program or a library: build/bin/program -> Assets beside build; prefix/bin/program and
+// prefix/lib/python3/dist-packages/package/library -> prefix/share/ray-tracing-twins.
+void addPlacesAround(const fs::path& file, std::vector<fs::path>& places) {
+    constexpr int kLevels = 5;
+    fs::path folder = file.parent_path();
+    for (int level = 0; level < kLevels && folder.has_relative_path(); ++level, folder = folder.parent_path()) {
+        places.push_back(folder / "Assets");
+        places.push_back(folder / "share" / "ray-tracing-twins");
+    }
 }
 
 } // namespace
@@ -66,17 +80,17 @@ fs::path userStateFolder() {
 std::vector<fs::path> assetFolders() {
     std::vector<fs::path> candidates;
     if (const char* chosen = std::getenv("RT_ASSETS"); chosen && *chosen) candidates.emplace_back(chosen);
-    // build/bin/program -> Assets beside build; prefix/bin/program -> prefix/share/ray-tracing-twins.
-    fs::path folder = executablePath().parent_path();
-    for (int level = 0; level < 4 && folder.has_relative_path(); ++level, folder = folder.parent_path()) {
-        candidates.push_back(folder / "Assets");
-        candidates.push_back(folder / "share" / "ray-tracing-twins");
-    }
+    if (!library.empty()) addPlacesAround(library, candidates);
+    addPlacesAround(executablePath(), candidates);
     std::vector<fs::path> found;
     std::error_code ignored;
     for (const fs::path& candidate : candidates)
         if (fs::is_directory(candidate, ignored)) found.push_back(candidate);
     return found;
+}
+
+void findAssetsAround(const fs::path& file) {
+    library = file;
 }
 
 fs::path planetMapFolder() {

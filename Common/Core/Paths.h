@@ -25,6 +25,10 @@ std::filesystem::path userStateFolder();
 // that exist.
 std::vector<std::filesystem::path> assetFolders();
 
+// Of a library that a program of others has loaded: assetFolders() looks around its file, too, before the program's.
+// To be called by one thread, before any other asks.
+void findAssetsAround(const std::filesystem::path& library);
+
 // An asset by its name relative to an asset folder, e.g. "textures/mars.jpg"; nothing when no folder has such a file.
 std::optional<std::filesystem::path> findAsset(const std::filesystem::path& name);
 

@@ -247,8 +247,8 @@ void settleCommand(const FlagSet& flags, ParsedFlags& parsed) {
     if (parsed.listDevices) options.command = Command::ListDevices;
     if (options.command != Command::Render) return;
     if (parsed.headless && parsed.window) throw UsageError("--window: contradicts --headless");
-    const bool implied =
-        !options.outputs.empty() || flags.given("--stats") || flags.given("--time-limit") || options.tiles;
+    const bool implied = options.isScripted || !options.outputs.empty() || flags.given("--stats") ||
+                         flags.given("--time-limit") || options.tiles;
     options.window = parsed.window || (!parsed.headless && !implied);
     if (!options.window) return;
     for (const char* flag : {"--checkpoint", "--resume", "--save-every", "--region", "--tiles"})
@@ -257,7 +257,8 @@ void settleCommand(const FlagSet& flags, ParsedFlags& parsed) {
 
 void settleDenoise(const FlagSet& flags, ParsedFlags& parsed) {
     Options& options = parsed.options;
-    const bool canDenoise = !options.window && !options.tiles && !options.outputs.empty() && options.settings.spp >= 2;
+    const bool hasPicture = options.isScripted || !options.outputs.empty();
+    const bool canDenoise = !options.window && !options.tiles && hasPicture && options.settings.spp >= 2;
     // What a configuration file says of all renders holds for those that can.
     if (flags.isFromFile("--denoise") && !canDenoise)
         parsed.denoise = options.denoisedOnly = options.denoisesByOidn = false;
@@ -268,7 +269,7 @@ void settleDenoise(const FlagSet& flags, ParsedFlags& parsed) {
     if (options.window) throw UsageError("--denoise: not with a window; use --headless");
     if (options.tiles)
         throw UsageError("--denoise: not with --tiles; ray-tracing-image denoise takes the checkpoint that they make");
-    if (options.outputs.empty()) throw UsageError("--denoise: needs --output");
+    if (!hasPicture) throw UsageError("--denoise: needs --output");
     if (!options.denoisesByOidn) return;
     if (options.targetError) throw UsageError("--denoise oidn: not with --target-error: it does not tell its error");
     if (options.wants(Aov::DenoisedError))
@@ -293,13 +294,14 @@ void settleErrorEstimate(Options& options) {
     if (settings.replicates > settings.spp)
         throw UsageError("--replicates " + std::to_string(settings.replicates) + ": must be at most --spp " +
                          std::to_string(settings.spp));
-    const bool read = !options.stats.empty() || options.wants(Aov::Variance);
+    const bool read = options.isScripted || !options.stats.empty() || options.wants(Aov::Variance);
     settings.secondMoments = read && settings.replicates < 2; // otherwise the replicates tell
     settings.sppIsKnown = !options.timeLimit && !options.targetError;
 }
 
 void settleFiles(Options& options) {
-    if (!options.aovs.empty() && options.outputs.empty()) throw UsageError("--aov: needs --output");
+    if (!options.aovs.empty() && options.outputs.empty() && !options.isScripted)
+        throw UsageError("--aov: needs --output");
     if (options.settings.adaptive && (options.region || options.tiles))
         throw UsageError(
             "--adaptive on: not with --region or --tiles, as its plan needs a pilot of the whole image; mpirun shares "
@@ -333,8 +335,9 @@ void settleValidation(const ParsedFlags& parsed) {
 
 } // namespace
 
-OptionParser::OptionParser(const std::string& program)
+OptionParser::OptionParser(const std::string& program, bool isScripted)
     : program_(program),
+      isScripted_(isScripted),
       parsed_(std::make_unique<ParsedFlags>()),
       flags_(std::make_unique<FlagSet>(program, std::string("Path tracer on the ") +
                                                     (program == kGpuProgram ? "GPU" : "CPU") +
@@ -361,6 +364,7 @@ std::optional<Options> OptionParser::parse(std::vector<std::string> arguments, s
     const FlagSet& flags = *flags_;
     parsed = {};
     parsed.options.program = program_;
+    parsed.options.isScripted = isScripted_;
     if (!flags_->parse(std::move(arguments), out)) return std::nullopt;
 
     parsed.options.keepsUserFiles = !flags.given("--no-config");

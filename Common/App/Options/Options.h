@@ -53,6 +53,7 @@ struct Options {
     std::optional<TileShare> tiles; // all of them
 
     std::vector<std::string> outputs;
+    bool isScripted = false; // pictures and statistics are taken from memory: none of them needs a file
     float exposure = 0; // stops
     Tonemap tonemap = Tonemap::None;
     std::vector<Aov> aovs;
@@ -100,7 +101,8 @@ struct ParsedFlags;
 // Reads command lines of one program: making its flags takes much longer than reading a line.
 class OptionParser {
   public:
-    explicit OptionParser(const std::string& program); // environment and configuration file are looked for now
+    // Environment and configuration file are looked for now. `isScripted`: see Options.
+    explicit OptionParser(const std::string& program, bool isScripted = false);
     ~OptionParser();
 
     // Of the command line (without the program's name), else the environment, else the configuration file. Nothing is
@@ -112,6 +114,7 @@ class OptionParser {
 
   private:
     const std::string program_;
+    const bool isScripted_;
     const std::unique_ptr<ParsedFlags> parsed_;
     const std::unique_ptr<FlagSet> flags_;
 };

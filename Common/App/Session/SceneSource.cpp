@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -112,12 +113,17 @@ std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc
 
 std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request) {
     const ReadsBelow confined(request.assetsBelow, request.source);
-    std::optional<scene::SceneDesc> desc = loadScene(request.source);
+    return compile(loadScene(request.source), request);
+}
+
+std::shared_ptr<const scene::CompiledScene> compile(scene::SceneDesc desc, const SceneRequest& request) {
+    const ReadsBelow confined(request.assetsBelow, request.source);
+    std::optional<scene::SceneDesc> kept(std::move(desc));
     scene::CompileOptions options;
     options.installedMaps = true;
-    if (!request.pose.empty()) options.camera = cameraOf(request.pose, *desc);
-    auto compiled = compileWith(*desc, request.oneSidedLights, options);
-    desc.reset(); // as large as what was made of it, and engines now want memory
+    if (!request.pose.empty()) options.camera = cameraOf(request.pose, *kept);
+    auto compiled = compileWith(*kept, request.oneSidedLights, options);
+    kept.reset(); // as large as what was made of it, and engines now want memory
     releaseFreedMemory();
     return compiled;
 }
