@@ -23,6 +23,7 @@ cluster_packages=(libopenmpi-dev openmpi-bin)
 release_packages=(debootstrap git)
 package_packages=(dpkg-dev file)
 docs_packages=(mkdocs)
+python_packages=(python3-dev pybind11-dev python3-numpy)
 
 preset=release # whatever the environment: what users build is what is tested
 log=build/build.log # of one call
@@ -69,6 +70,8 @@ usage() {
 ./build.sh package       packages for this system in build/packages: .deb, and .tar.gz that runs from any folder
 ./build.sh package --test
                          then, as root, try them in a bare system (tests/packages/run.sh): for nights
+./build.sh python        the Python module, installed into the active virtual environment or else for this user, and its
+                         tests (docs/python.md)
 ./build.sh docs          the guides as a site in build/site
 ./build.sh cluster       the same as ./build.sh, and what mpirun needs to share a render out (docs/many-machines.md)
 ./build.sh bench [ARGS]  build, then run ray-tracing-bench with ARGS
@@ -174,6 +177,28 @@ make_packages() {
     ls build/packages/*
 }
 
+# Where modules of the interpreter go: those of the active virtual environment, or this user's own.
+python_folder() {
+    local place='site.getusersitepackages()'
+    [[ -z ${VIRTUAL_ENV:-} ]] || place='sysconfig.get_path("platlib")'
+    "$1" -c "import site, sysconfig; print($place)"
+}
+
+install_python_module() {
+    local python=${VIRTUAL_ENV:-/usr}/bin/python3
+    [[ -x $python ]] || python=$(command -v python3) || fail "python: there is no python3"
+    "$python" -c 'import numpy' 2>/dev/null ||
+        fail "python: $python has no numpy. In a virtual environment: pip install numpy"
+    configure -DRT_BUILD_PYTHON=ON -DRT_PYTHON="$python" -DRT_PYTHON_DIR="$(python_folder "$python")"
+    build --target rt-python ray-tracing-cpu
+    step "Installing into $(python_folder "$python")" sh -c '
+        cmake --install build --component python && cmake --install build --component python-assets'
+    local suite
+    for suite in tests/python/test_*.py; do
+        step "Testing $suite" env PYTHONDONTWRITEBYTECODE=1 RT_PROGRAM_DIR=build/bin "$python" "$suite"
+    done
+}
+
 # open_window cpu|gpu
 open_window() {
     [[ $1 == cpu || $1 == gpu ]] || fail "run $1: must be cpu or gpu"
@@ -247,7 +272,7 @@ case $verb in
     test)
         [[ -z ${1:-} || $1 == --all ]] || fail "test $1: must be --all or nothing"
         install_packages "${build_packages[@]}" "${test_packages[@]}" "${cluster_packages[@]}" \
-            ${1:+"${compiler_packages[@]}"}
+            "${python_packages[@]}" ${1:+"${compiler_packages[@]}"}
         configure -DRT_BUILD_TESTS=ON -DRT_BUILD_BENCH=ON ${VCPKG_ROOT:+-DVCPKG_MANIFEST_FEATURES=tests}
         build
         provide_device || fail "$no_device_reason"
@@ -267,6 +292,10 @@ case $verb in
             install_packages "${release_packages[@]}" lintian
             tests/packages/run.sh build/packages/try
         fi
+        ;;
+    python)
+        install_packages "${build_packages[@]}" "${python_packages[@]}"
+        install_python_module
         ;;
     docs)
         install_packages "${docs_packages[@]}"

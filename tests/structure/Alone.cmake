@@ -39,7 +39,7 @@ set(includes [==[${includes}]==])
 endfunction()
 
 # ---- which files there are, and whose --------------------------------------------------------------------------------
-set(roots Common RayTracingCPU RayTracingGPU tests)
+set(roots Common Python RayTracingCPU RayTracingGPU tests)
 list(TRANSFORM roots PREPEND ${PROJECT_SOURCE_DIR}/)
 list(TRANSFORM roots APPEND /*.h OUTPUT_VARIABLE headerGlobs)
 list(TRANSFORM roots APPEND /*.cpp OUTPUT_VARIABLE sourceGlobs)
@@ -49,7 +49,8 @@ file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${sourceGlobs})
 # define the same for an instruction set each, and probes are shaders.
 set(others "/tests/(fuzz|structure/planted|cross/probes)/|/DockApi\\.h$|/Simd(Avx|Avx2|Avx512|Sse4|Neon|Generic)\\.h$")
 # What is left out of this build: a target that it has not, and its folder.
-foreach(left IN ITEMS rt-vulkan:Common/Vulkan rt-gui:Common/Gui rt-gpu:RayTracingGPU ray-tracing-mpi:Common/Mpi
+foreach(left IN ITEMS rt-vulkan:Common/Vulkan rt-gui:Common/Gui rt-gpu:RayTracingGPU rt-python:Python
+                      ray-tracing-mpi:Common/Mpi
                       rt-cross-tests:tests/cross rt-gui-tests:tests/gui rt-fault-layer:tests/layer
                       rt-fault-calls:tests/layer rays-bench:tests/bench)
     string(REPLACE ":" ";" left ${left})

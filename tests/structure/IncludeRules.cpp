@@ -32,6 +32,7 @@ const std::map<std::string, std::vector<std::string>> kArrows = {
     {"Common/Gui", {"Common/App", "Common/Vulkan", "Shaders"}},
     {"RayTracingCPU", {"Common/Render", "Common/Accel"}},
     {"RayTracingGPU", {"Common/Render", "Common/Accel", "Common/Vulkan", "Shaders"}},
+    {"Python", {"Common/App", "RayTracingCPU", "RayTracingGPU"}},
     {"Shaders", {"Common/Shared"}},
 };
 

@@ -1,4 +1,4 @@
-// Files have at most 400 lines and functions at most 80, in production code: Common, both engines, Shaders.
+// Files have at most 400 lines and functions at most 80, in production code: Common, both engines, Python, Shaders.
 //
 // Functions are found by braces, in the text without comments, strings and lines of the preprocessor: one that is
 // opened outside of any function, behind a ')' and perhaps initialisers or qualifiers. Lambdas count to what they are
@@ -126,7 +126,7 @@ std::vector<fs::path> productionFiles() {
     static const std::set<std::string> kinds = {".cpp",  ".h",    ".glsl",  ".comp", ".frag",
                                                 ".vert", ".rgen", ".rchit", ".rint", ".rmiss"};
     std::vector<fs::path> files;
-    for (const char* folder : {"Common", "RayTracingCPU", "RayTracingGPU", "Shaders"})
+    for (const char* folder : {"Common", "Python", "RayTracingCPU", "RayTracingGPU", "Shaders"})
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(fs::path(RT_SOURCE_DIR) / folder))
             if (kinds.count(entry.path().extension().string()) != 0) files.push_back(entry.path());
     return files;

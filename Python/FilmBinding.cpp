@@ -1,0 +1,77 @@
+// Renders: the engines that there are, and films.
+#include <memory>
+#include <optional>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <string>
+#include <utility>
+
+#include "Common/App/Options/OptionValues.h"
+#include "Common/Render/Names.h"
+#include "Common/Render/Progress.h"
+#include "Python/Arrays.h"
+#include "Python/Bindings.h"
+#include "Python/Engines.h"
+#include "Python/Film.h"
+
+namespace rt::python {
+namespace {
+
+namespace py = pybind11;
+using Released = py::call_guard<py::gil_scoped_release>;
+
+// Makes an array of what `make` gives while other threads of Python run.
+template <class Make>
+py::array arrayOf(const Make& make) {
+    image::Image image;
+    {
+        const py::gil_scoped_release released;
+        image = make();
+    }
+    return toArray(std::move(image));
+}
+
+std::optional<std::string> advance(Film& film, double seconds) {
+    const std::optional<app::StopReason> reason = film.advance(seconds);
+    return reason ? std::optional(app::nameOf(app::kStopReasons, *reason)) : std::nullopt;
+}
+
+py::tuple progress(Film& film) {
+    app::ProgressState state;
+    {
+        const py::gil_scoped_release released;
+        state = film.progress();
+    }
+    return py::make_tuple(state.samplesDone, state.samplesTotal, state.pixels, state.seconds,
+                          app::describeProgress(state));
+}
+
+} // namespace
+
+void bindFilm(py::module_& module) {
+    py::class_<Film>(module, "Film")
+        .def(py::init<const std::shared_ptr<Scene>&, app::Options>(), Released())
+        .def("advance", &advance, Released())
+        .def("cancel", &Film::cancel)
+        .def("write", &Film::write, Released())
+        .def("save", &Film::save, Released())
+        .def("statistics", &Film::statistics, Released())
+        .def("progress", &progress)
+        .def("image", [](Film& film) { return arrayOf([&] { return film.image(); }); })
+        .def("aov",
+             [](Film& film, const std::string& name) {
+                 const app::Aov aov = app::parseChoice("--aov", name, app::kAovs);
+                 return arrayOf([&] { return film.aov(aov); });
+             })
+        .def_property_readonly("width", &Film::width)
+        .def_property_readonly("height", &Film::height)
+        .def_property_readonly("checkpoint_file", &Film::checkpointFile);
+    py::list aovs;
+    for (const auto& row : app::kAovs) aovs.append(std::string(row.name));
+    module.attr("aov_names") = py::tuple(aovs);
+    module.attr("has_gpu") = hasGpuEngine();
+    module.def("has_hardware_device", &hasHardwareDevice, Released());
+    module.def("describe_devices", &describeDevices, Released());
+}
+
+} // namespace rt::python

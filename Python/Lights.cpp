@@ -1,0 +1,188 @@
+// Light sampling: of one light's shape, and of the choice among all.
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <pybind11/pybind11.h>
+#include <string>
+
+#include "Common/Shared/Light/LightSelection.h"
+#include "Common/Shared/Path/Mixture.h"
+#include "Python/Arrays.h"
+#include "Python/Bindings.h"
+#include "Python/Scene.h"
+
+namespace rt::python {
+namespace {
+
+namespace py = pybind11;
+using namespace rt::shared;
+
+const Light& lightAt(const Scene& scene, std::int64_t index) {
+    const std::uint32_t count = scene.compiled()->globals.lightCount;
+    if (index < 0 || index >= count)
+        throw py::value_error("light: expected an index from 0 to " + std::to_string(std::int64_t{count} - 1) +
+                              " of the scene's lights; got " + std::to_string(index));
+    return scene.compiled()->lights[static_cast<std::size_t>(index)];
+}
+
+void requireLights(const Scene& scene) {
+    if (scene.compiled()->globals.lightCount == 0)
+        throw py::value_error("scene: expected one with lights to choose from; got one without");
+}
+
+// As far as light sampling looks at it.
+Vertex vertexAt(const shared::vec3& position, const shared::vec3& normal) {
+    Vertex v{};
+    v.origin = position;
+    v.shading = normal;
+    return v;
+}
+
+py::tuple sampleLights(const Scene& scene, std::int64_t index, const py::object& points, const py::object& normals,
+                       const py::object& numbers, const py::object& when) {
+    const Light& light = lightAt(scene, index);
+    const Rows position(points, "points", 3);
+    const Rows normal(normals, "normals", 3, Demand::UnitOr0);
+    const Rows u(numbers, "u", 2, Demand::Fraction);
+    const Rows time(when, "time", 0, Demand::Fraction);
+    const std::size_t count = commonCount({&position, &normal, &u, &time});
+    NewFloats direction(count, 3), distance(count), pdf(count), radiance(count, 3), point(count, 3), towards(count, 3);
+    {
+        const py::gil_scoped_release released;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vertex v = vertexAt(scene.toScene(position.vec3(i)), normal.vec3(i));
+            LightSample s =
+                sampleChosenLight(kFeatureAll, scene.view(), scene.params(), light, v, time.number(i), u.vec2(i));
+            if (!(s.pdf > 0.0f)) s = noLightSample();
+            direction.set(i, s.wi);
+            distance.set(i, s.distance < kInfinity ? s.distance : std::numeric_limits<float>::infinity());
+            pdf.set(i, s.pdf);
+            radiance.set(i, s.radiance);
+            point.set(i, s.pdf > 0.0f && s.distance < kInfinity ? scene.toWorld(s.point) : shared::vec3(0.0f));
+            towards.set(i, s.normal);
+        }
+    }
+    return py::make_tuple(direction.array, distance.array, pdf.array, radiance.array, point.array, towards.array);
+}
+
+// Over solid angle, given this light.
+float pdfAlong(const Scene& scene, const Light& light, const shared::vec3& position, const shared::vec3& normal,
+               float time, const shared::vec3& direction) {
+    if (light.kind == kLightSky) return skyPdf(scene.view(), direction);
+    if (isPunctual(kFeatureAll, light)) return 0.0f;
+    return lightPdfAlong(kFeatureAll, scene.params(), light, position, normal, time, direction);
+}
+
+py::array lightPdfs(const Scene& scene, std::int64_t index, const py::object& points, const py::object& normals,
+                    const py::object& directions, const py::object& when) {
+    const Light& light = lightAt(scene, index);
+    const Rows position(points, "points", 3);
+    const Rows normal(normals, "normals", 3, Demand::UnitOr0);
+    const Rows direction(directions, "directions", 3, Demand::Unit);
+    const Rows time(when, "time", 0, Demand::Fraction);
+    const std::size_t count = commonCount({&position, &normal, &direction, &time});
+    NewFloats pdf(count);
+    {
+        const py::gil_scoped_release released;
+        for (std::size_t i = 0; i < count; ++i)
+            pdf.set(i, pdfAlong(scene, light, scene.toScene(position.vec3(i)), normal.vec3(i), time.number(i),
+                                direction.vec3(i)));
+    }
+    return pdf.array;
+}
+
+LightChoice chosenAt(const Scene& scene, const shared::vec2& u, LightContext& context) {
+    return chooseLight(kFeatureAll, scene.view(), scene.params().lightSelection, scene.compiled()->globals.lightCount,
+                       u, context);
+}
+
+LightContext contextAt(const shared::vec3& position, const shared::vec3& normal) {
+    LightContext context;
+    context.position = position;
+    context.normal = normal;
+    context.total = 0.0f;
+    return context;
+}
+
+py::tuple chooseLights(const Scene& scene, const py::object& points, const py::object& normals,
+                       const py::object& numbers) {
+    requireLights(scene);
+    const Rows position(points, "points", 3);
+    const Rows normal(normals, "normals", 3, Demand::UnitOr0);
+    const Rows u(numbers, "u", 2, Demand::Fraction);
+    const std::size_t count = commonCount({&position, &normal, &u});
+    NewArray<std::int32_t> light(count);
+    NewFloats probability(count);
+    {
+        const py::gil_scoped_release released;
+        for (std::size_t i = 0; i < count; ++i) {
+            LightContext context = contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
+            const LightChoice choice = chosenAt(scene, u.vec2(i), context);
+            light.set(i, static_cast<std::int32_t>(choice.light));
+            probability.set(i, choice.light == kNone ? 0.0f : choice.probability);
+        }
+    }
+    return py::make_tuple(light.array, probability.array);
+}
+
+float probabilityOf(const Scene& scene, uint light, const LightContext& context) {
+    return lightProbability(kFeatureAll, scene.view(), scene.params().lightSelection,
+                            scene.compiled()->globals.lightCount, light, context);
+}
+
+py::array lightProbabilities(const Scene& scene, std::int64_t index, const py::object& points,
+                             const py::object& normals) {
+    lightAt(scene, index);
+    const Rows position(points, "points", 3);
+    const Rows normal(normals, "normals", 3, Demand::UnitOr0);
+    const std::size_t count = commonCount({&position, &normal});
+    NewFloats probability(count);
+    {
+        const py::gil_scoped_release released;
+        for (std::size_t i = 0; i < count; ++i) {
+            LightContext context = contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
+            chosenAt(scene, shared::vec2(0.5f, 0.5f), context); // which leaves the sum of contributions
+            probability.set(i, probabilityOf(scene, static_cast<uint>(index), context));
+        }
+    }
+    return probability.array;
+}
+
+// Of all lights, as one is chosen and then sampled.
+py::array lightSamplingPdfs(const Scene& scene, const py::object& points, const py::object& normals,
+                            const py::object& directions, const py::object& when) {
+    requireLights(scene);
+    const Rows position(points, "points", 3);
+    const Rows normal(normals, "normals", 3, Demand::UnitOr0);
+    const Rows direction(directions, "directions", 3, Demand::Unit);
+    const Rows time(when, "time", 0, Demand::Fraction);
+    const std::size_t count = commonCount({&position, &normal, &direction, &time});
+    NewFloats pdf(count);
+    {
+        const py::gil_scoped_release released;
+        for (std::size_t i = 0; i < count; ++i) {
+            LightContext context = contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
+            chosenAt(scene, shared::vec2(0.5f, 0.5f), context);
+            float sum = 0.0f;
+            for (uint k = 0; k < scene.compiled()->globals.lightCount; ++k) {
+                const float density = pdfAlong(scene, scene.view().lights[k], context.position, context.normal,
+                                               time.number(i), direction.vec3(i));
+                if (density > 0.0f) sum += density * probabilityOf(scene, k, context);
+            }
+            pdf.set(i, sum);
+        }
+    }
+    return pdf.array;
+}
+
+} // namespace
+
+void bindLights(py::module_& module) {
+    module.def("sample_light", &sampleLights);
+    module.def("light_pdf", &lightPdfs);
+    module.def("choose_light", &chooseLights);
+    module.def("light_probability", &lightProbabilities);
+    module.def("light_sampling_pdf", &lightSamplingPdfs);
+}
+
+} // namespace rt::python
