@@ -20,13 +20,14 @@ from ._film import Aovs, Film, Progressive, progressive, render
 from ._flags import flags
 from ._images import (auto_exposure, build, devices, flip, flip_map, metrics, read_image, sample_spherical_triangle,
                       tonemap, triangle_solid_angle, write_image)
+from ._probe import Probe, probe
 from ._scene import (DIMENSIONS, BsdfSamples, Compiled, Hits, LightSamples, Notice, Scene, light, load, material,
                      samples, scenes)
 
 __version__: str = _core.version
 __all__ = [
     "DIMENSIONS", "Aovs", "BsdfSamples", "Compiled", "Error", "Film", "Hits", "InputError", "LightSamples",
-    "NoDeviceError", "Notice", "Progressive", "RenderError", "Scene", "UsageError", "auto_exposure", "build", "devices",
-    "flags", "flip", "flip_map", "light", "load", "material", "metrics", "progressive", "read_image", "render",
-    "sample_spherical_triangle", "samples", "scenes", "tonemap", "triangle_solid_angle", "write_image",
+    "NoDeviceError", "Notice", "Probe", "Progressive", "RenderError", "Scene", "UsageError", "auto_exposure", "build",
+    "devices", "flags", "flip", "flip_map", "light", "load", "material", "metrics", "probe", "progressive",
+    "read_image", "render", "sample_spherical_triangle", "samples", "scenes", "tonemap", "triangle_solid_angle", "write_image",
 ]

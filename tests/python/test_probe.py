@@ -1,0 +1,73 @@
+"""Maps of densities over the sphere of directions integrate to one, and lie where lights are."""
+
+import unittest
+
+import numpy as np
+
+import raytracing as rt
+
+ROOM = {
+    "camera": {"look_from": [0, 1, 4], "look_at": [0, 0, 0], "vertical_fov": 40},
+    "materials": {"floor": {"type": "lambertian", "albedo": [0.5, 0.5, 0.5]},
+                  "lamp": {"type": "emitter", "emission": [9, 9, 9], "sides": "both"}},
+    "objects": [
+        {"type": "quad", "corner": [-5, 0, 5], "edge_u": [10, 0, 0], "edge_v": [0, 0, -10], "material": "floor"},
+        {"type": "sphere", "center": [2, 2, 0], "radius": 0.7, "material": "lamp"},
+        {"type": "quad", "corner": [-3, 2, -1], "edge_u": [2, 0, 0], "edge_v": [0, 0, 2], "material": "lamp"}],
+}
+
+
+class Probes(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scene = rt.load(ROOM).compile(width=40)
+
+    def test_maps_integrate_to_one(self):
+        for strategy in ("bsdf", "lights", "mixture", 0, 1):
+            with self.subTest(strategy=strategy):
+                probe = rt.probe(self.scene, 20, 20, strategy)
+                self.assertEqual(probe.map.shape, (128, 256))
+                self.assertAlmostEqual(probe.integral, 1, delta=0.02)
+
+    def test_where_lights_are(self):
+        probe = rt.probe(self.scene, 20, 20, 0)
+        to_center = np.array([2, 2, 0]) - probe.position
+        distance = np.linalg.norm(to_center)
+        inside = probe.directions @ (to_center / distance) > np.sqrt(1 - (0.7 / distance)**2)
+        self.assertGreater((probe.map[inside] > 0).mean(), 0.98)
+        # Cells at the rim are partly inside.
+        self.assertLess((probe.map[~inside] > 0).mean(), 0.02)
+
+    def test_below_the_surface_is_nothing(self):
+        for strategy in ("bsdf", "lights", "mixture"):
+            probe = rt.probe(self.scene, 20, 20, strategy)
+            self.assertEqual(probe.map[probe.directions @ probe.normal < -0.02].max(), 0)
+
+    def test_samples_follow_the_map(self):
+        probe = rt.probe(self.scene, 20, 20, 1, height=32, side=8)
+        u = np.random.default_rng(3).random((40000, 2), dtype=np.float32)
+        s = self.scene.sample_light(1, probe.position, probe.normal, u)
+        d = s.direction[s.pdf > 0]
+        row = np.clip(((1 - d[:, 1]) / 2 * 32).astype(int), 0, 31)
+        column = ((np.arctan2(d[:, 2], d[:, 0]) + np.pi) / (2 * np.pi) * 64).astype(int) % 64
+        counts = np.bincount(row * 64 + column, minlength=2048)
+        expected = probe.map.reshape(-1) * 4 * np.pi / 2048 * len(u)
+        many = expected > 20
+        chi_square = ((counts[many] - expected[many])**2 / expected[many]).sum()
+        degrees = many.sum()
+        # Rims are known to a place in 64 only, which adds to the statistic.
+        self.assertLess(chi_square, degrees + 5 * np.sqrt(2 * degrees) + 0.5 * degrees)
+
+    def test_what_is_no_place(self):
+        with self.assertRaisesRegex(ValueError, "^x, y: expected a pixel that shows a surface"):
+            rt.probe(self.scene, 0, 0)
+        with self.assertRaisesRegex(ValueError, "^strategy: expected bsdf"):
+            rt.probe(self.scene, 20, 20, "nothing")
+        with self.assertRaisesRegex(ValueError, "^light: expected an index"):
+            rt.probe(self.scene, 20, 20, 7)
+        with self.assertRaisesRegex(ValueError, "^height, side: expected"):
+            rt.probe(self.scene, 20, 20, height=0)
+
+
+if __name__ == "__main__":
+    unittest.main()
