@@ -32,7 +32,7 @@ const test::JsonSchema& schema() {
 // Of every kind of thing one.
 Json everything() {
     return Json::parse(R"({
-  "$schema": "scene.schema.json", "version": 1, "title": "Everything",
+  "$schema": "scene.schema.json", "version": 1, "title": "Everything", "comment": ["For readers", "of the file."],
   "camera": {"look_from": [0, 1, 5], "look_at": [0, 0, 0], "up": [0, 1, 0], "vertical_fov": 40, "defocus_angle": 0.5,
              "focus_distance": 4},
   "background": {"type": "gradient", "bottom": [1, 1, 1], "top": [0.5, 0.7, 1]},

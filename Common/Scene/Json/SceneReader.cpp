@@ -66,11 +66,13 @@ RenderDefaults readRender(const JsonNode& node) {
 }
 
 SceneDesc readScene(const JsonNode& root, const SceneReferences& references, const LongJson& text) {
-    root.expectKeys({"$schema", "version", "title", "camera", "cameras", "background", "textures", "materials",
-                     "prototypes", "objects", "importance_targets", "render"});
+    root.expectKeys({"$schema", "version", "title", "comment", "camera", "cameras", "background", "textures",
+                     "materials", "prototypes", "objects", "importance_targets", "render"});
     if (const auto version = root.find("version"); version && version->value() != 1) version->failValue("1");
     SceneDesc scene;
     if (const auto node = root.find("title")) scene.title = node->string();
+    if (const auto lines = root.find("comment")) // for readers of the file
+        lines->forEachElement([](const JsonNode& line) { (void)line.string(); });
     if (const auto node = root.find("camera")) scene.camera = readCamera(*node);
     if (const auto section = root.find("cameras"))
         section->forEachMember(
