@@ -12,7 +12,7 @@
 #include "Python/Arrays.h"
 #include "Python/Bindings.h"
 #include "Python/Engines.h"
-#include "Python/Film.h"
+#include "Python/ScriptedFilm.h"
 
 namespace rt::python {
 namespace {
@@ -31,12 +31,12 @@ py::array arrayOf(const Make& make) {
     return toArray(std::move(image));
 }
 
-std::optional<std::string> advance(Film& film, double seconds) {
+std::optional<std::string> advance(ScriptedFilm& film, double seconds) {
     const std::optional<app::StopReason> reason = film.advance(seconds);
     return reason ? std::optional(app::nameOf(app::kStopReasons, *reason)) : std::nullopt;
 }
 
-py::tuple progress(Film& film) {
+py::tuple progress(ScriptedFilm& film) {
     app::ProgressState state;
     {
         const py::gil_scoped_release released;
@@ -49,23 +49,23 @@ py::tuple progress(Film& film) {
 } // namespace
 
 void bindFilm(py::module_& module) {
-    py::class_<Film>(module, "Film")
+    py::class_<ScriptedFilm>(module, "Film")
         .def(py::init<const std::shared_ptr<Scene>&, app::Options>(), Released())
         .def("advance", &advance, Released())
-        .def("cancel", &Film::cancel)
-        .def("write", &Film::write, Released())
-        .def("save", &Film::save, Released())
-        .def("statistics", &Film::statistics, Released())
+        .def("cancel", &ScriptedFilm::cancel)
+        .def("write", &ScriptedFilm::write, Released())
+        .def("save", &ScriptedFilm::save, Released())
+        .def("statistics", &ScriptedFilm::statistics, Released())
         .def("progress", &progress)
-        .def("image", [](Film& film) { return arrayOf([&] { return film.image(); }); })
+        .def("image", [](ScriptedFilm& film) { return arrayOf([&] { return film.image(); }); })
         .def("aov",
-             [](Film& film, const std::string& name) {
+             [](ScriptedFilm& film, const std::string& name) {
                  const app::Aov aov = app::parseChoice("--aov", name, app::kAovs);
                  return arrayOf([&] { return film.aov(aov); });
              })
-        .def_property_readonly("width", &Film::width)
-        .def_property_readonly("height", &Film::height)
-        .def_property_readonly("checkpoint_file", &Film::checkpointFile);
+        .def_property_readonly("width", &ScriptedFilm::width)
+        .def_property_readonly("height", &ScriptedFilm::height)
+        .def_property_readonly("checkpoint_file", &ScriptedFilm::checkpointFile);
     py::list aovs;
     for (const auto& row : app::kAovs) aovs.append(std::string(row.name));
     module.attr("aov_names") = py::tuple(aovs);

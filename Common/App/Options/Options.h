@@ -54,7 +54,7 @@ struct Options {
 
     std::vector<std::string> outputs;
     bool isScripted = false; // pictures and statistics are taken from memory: none of them needs a file
-    float exposure = 0; // stops
+    float exposure = 0;      // stops
     Tonemap tonemap = Tonemap::None;
     std::vector<Aov> aovs;
     bool denoisedOnly = false;   // outputs are denoised; otherwise Aov::Denoised lies beside them

@@ -17,11 +17,11 @@
 namespace rt::python {
 
 // Any thread may call any member; one waits for the other. Of those that wait for a slice, cancel() is none.
-class Film {
+class ScriptedFilm {
   public:
     // Begins the film, or goes on from the checkpoint that the options name. Throws what a render on the command line
     // throws.
-    Film(const std::shared_ptr<Scene>& scene, app::Options options);
+    ScriptedFilm(const std::shared_ptr<Scene>& scene, app::Options options);
 
     // Samples for about so many seconds. Returns what has ended the render, once something has. Throws RenderError.
     std::optional<app::StopReason> advance(double seconds);

@@ -1,4 +1,4 @@
-#include "Python/Film.h"
+#include "Python/ScriptedFilm.h"
 
 #include <algorithm>
 #include <utility>
@@ -14,7 +14,7 @@
 
 namespace rt::python {
 
-Film::Film(const std::shared_ptr<Scene>& scene, app::Options options) : job_(std::move(options)) {
+ScriptedFilm::ScriptedFilm(const std::shared_ptr<Scene>& scene, app::Options options) : job_(std::move(options)) {
     setUpLog({"raytracing", job_.options().quiet, job_.options().verbose, job_.options().logFile});
     app::checkOutputs(job_.options());
     job_.take(scene->compiled(), scene->seconds());
@@ -24,50 +24,50 @@ Film::Film(const std::shared_ptr<Scene>& scene, app::Options options) : job_(std
     checkpointFile_ = job_.options().checkpoint;
 }
 
-std::optional<app::StopReason> Film::advance(double seconds) {
+std::optional<app::StopReason> ScriptedFilm::advance(double seconds) {
     const std::scoped_lock lock(mutex_);
     if (ended_ && *ended_ != app::StopReason::Interrupted) return ended_;
     ended_ = job_.slice(seconds, cancel_);
     return ended_;
 }
 
-void Film::write() {
+void ScriptedFilm::write() {
     const std::scoped_lock lock(mutex_);
     const std::atomic<bool> byNobody{false};
     job_.write(byNobody);
 }
 
-void Film::save(const std::string& checkpoint) {
+void ScriptedFilm::save(const std::string& checkpoint) {
     const std::scoped_lock lock(mutex_);
     const std::atomic<bool> byNobody{false};
     job_.save(checkpoint, byNobody);
 }
 
-std::string Film::statistics() {
+std::string ScriptedFilm::statistics() {
     const std::scoped_lock lock(mutex_);
     return job_.statisticsJson();
 }
 
-app::ProgressState Film::progress() {
+app::ProgressState ScriptedFilm::progress() {
     const std::scoped_lock lock(mutex_);
     return job_.run().progress();
 }
 
-const image::Film& Film::film() {
+const image::Film& ScriptedFilm::film() {
     std::string lost;
     const image::Film& film = job_.run().keptFilm(lost);
     if (!lost.empty()) logWarning(lost);
     return film;
 }
 
-image::Image Film::image() {
+image::Image ScriptedFilm::image() {
     const std::scoped_lock lock(mutex_);
     const auto& region = job_.options().region;
     if (!region) return film().resolve();
     return image::toImage(app::withinRegion(image::meanRows(film()), region));
 }
 
-image::Image Film::aov(app::Aov aov) {
+image::Image ScriptedFilm::aov(app::Aov aov) {
     const std::scoped_lock lock(mutex_);
     if (aov == app::Aov::Samples) return film().sampleCounts();
     if (aov == app::Aov::Denoised || aov == app::Aov::DenoisedError) return denoised(aov);
@@ -77,14 +77,14 @@ image::Image Film::aov(app::Aov aov) {
     return film().varianceOfMean();
 }
 
-image::Image Film::denoised(app::Aov aov) {
+image::Image ScriptedFilm::denoised(app::Aov aov) {
     if (aov == app::Aov::DenoisedError && !job_.options().wants(aov))
         throw UsageError("--aov denoised-error: is to be asked for before the render");
     image::Denoised denoised = job_.denoiser().denoise(film());
     return std::move(aov == app::Aov::Denoised ? denoised.picture : denoised.error);
 }
 
-image::Image Film::feature(app::Aov aov) {
+image::Image ScriptedFilm::feature(app::Aov aov) {
     const auto is = [aov](app::Aov other) { return aov == other; };
     app::AovRequest request{{is(app::Aov::Albedo), is(app::Aov::Normal), is(app::Aov::Depth)}};
     request.wide = {is(app::Aov::WideAlbedo), is(app::Aov::WideNormal), is(app::Aov::WideDepth)};
