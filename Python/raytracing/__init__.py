@@ -29,5 +29,6 @@ __all__ = [
     "DIMENSIONS", "Aovs", "BsdfSamples", "Compiled", "Error", "Film", "Hits", "InputError", "LightSamples",
     "NoDeviceError", "Notice", "Probe", "Progressive", "RenderError", "Scene", "UsageError", "auto_exposure", "build",
     "devices", "flags", "flip", "flip_map", "light", "load", "material", "metrics", "probe", "progressive",
-    "read_image", "render", "sample_spherical_triangle", "samples", "scenes", "tonemap", "triangle_solid_angle", "write_image",
+    "read_image", "render", "sample_spherical_triangle", "samples", "scenes", "tonemap", "triangle_solid_angle",
+    "write_image",
 ]

@@ -46,7 +46,7 @@ class Film:
         self._is_quiet: bool = options.quiet
         self._pictures: dict[str, np.ndarray] = {}
         self._is_written = False
-        #: What has ended the render: "spp", "time_limit", "target_error", "interrupted"; None: it can go on.
+        #: What has ended the render: "spp", "time_limit", "target_error", "interrupted", "failure"; None: it can go on.
         self.stopped_by: str | None = None
 
     def __repr__(self) -> str:
@@ -82,6 +82,11 @@ class Film:
         except KeyboardInterrupt:
             self.interrupt()
             bar.finish()
+            raise
+        except (_core.RenderError, MemoryError):  # what there is of it is written, as the programs do
+            self.stopped_by = "failure"
+            bar.finish()
+            self.write()
             raise
         bar.finish()
         self.write()

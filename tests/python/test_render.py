@@ -196,6 +196,22 @@ class Watched(unittest.TestCase):
         self.assertTrue(still_under_way)
         self.assertEqual(counted, 1000)
 
+    def test_what_a_failing_device_leaves_is_written(self):
+        class Failing:
+            written = 0
+
+            def advance(self, seconds):
+                raise rt.RenderError("the device is lost")
+
+            def write(self):
+                self.written += 1
+
+        film = rt.Film("cornell-box-lights", "cpu", width=8, spp=1)
+        film._core = Failing()
+        with self.assertRaisesRegex(rt.RenderError, "^the device is lost$"):
+            film.run(progress=False)
+        self.assertEqual((film.stopped_by, film._core.written), ("failure", 1))
+
     def test_time_limit(self):
         film = rt.render("cornell-box-lights", "cpu", width=40, spp=2**31 - 1, time_limit=0.2, progress=False)
         self.assertEqual(film.stopped_by, "time_limit")
