@@ -20,7 +20,7 @@ PYBIND11_MODULE(_core, module) {
     bindSampler(module);
     bindShapes(module);
     bindImages(module);
-    module.attr("version") = RT_VERSION;
+    module.attr("version") = rt::programVersion();
     module.attr("version_text") = rt::versionText("raytracing");
     module.def("find_assets_around", [](const std::string& file) { rt::findAssetsAround(file); });
 }
