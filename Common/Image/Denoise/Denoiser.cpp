@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -47,25 +48,30 @@ shared::DenoisedValue valueOf(const Halves& halves, std::size_t candidate, std::
             halves.partnerFactors[candidate][half].row(y)[x]};
 }
 
-// Pixels of a row or column that lie in reach of one of them.
-double inReach(std::size_t at, std::size_t size, std::size_t reach) {
-    return static_cast<double>(std::min(at + reach, size - 1) - (at < reach ? 0 : at - reach) + 1);
-}
-
+// Of each pixel by the means around it.
 Plane choiceErrors(const Plane& errors, std::size_t threads) {
-    constexpr std::size_t kAll = shared::kDenoiseErrorReach, kOwn = shared::kDenoiseOwnReach;
-    Plane all = boxMean(errors, kAll, threads);
-    const Plane own = boxMean(errors, kOwn, threads);
-    const std::size_t width = errors.width(), height = errors.height();
-    for (std::size_t y = 0; y < height; ++y)
-        for (std::size_t x = 0; x < width; ++x) {
-            const double count = inReach(x, width, kAll) * inReach(y, height, kAll),
-                         near = inReach(x, width, kOwn) * inReach(y, height, kOwn);
-            if (count == near) continue;
-            const double others = (count * all.row(y)[x] - near * own.row(y)[x]) / (count - near);
-            all.row(y)[x] = shared::denoiseChoiceError(all.row(y)[x], static_cast<float>(others));
+    const auto width = static_cast<int>(errors.width()), height = static_cast<int>(errors.height());
+    Plane result(errors.width(), errors.height());
+    parallelFor(threads, errors.height(), [&](std::size_t row) {
+        const int y = static_cast<int>(row), reach = shared::kDenoiseErrorReach;
+        for (int x = 0; x < width; ++x) {
+            float sum = 0, others = 0;
+            int count = 0, otherCount = 0;
+            for (int v = std::max(y - reach, 0); v <= std::min(y + reach, height - 1); ++v)
+                for (int u = std::max(x - reach, 0); u <= std::min(x + reach, width - 1); ++u) {
+                    const float error = errors.row(static_cast<std::size_t>(v))[u];
+                    sum += error;
+                    ++count;
+                    if (std::max(std::abs(u - x), std::abs(v - y)) <= shared::kDenoiseOwnReach) continue;
+                    others += error;
+                    ++otherCount;
+                }
+            const float mean = sum / static_cast<float>(count);
+            result.row(row)[x] =
+                otherCount > 0 ? shared::denoiseChoiceError(mean, others / static_cast<float>(otherCount)) : mean;
         }
-    return all;
+    });
+    return result;
 }
 
 // The error of a candidate by which it is chosen: in tones, of each pixel's own noise.
