@@ -38,9 +38,10 @@ void addSuiteFlags(CLI::App& app, BenchFlags& flags) {
     std::string suites;
     for (const NamedSuite& suite : namedSuites()) suites += std::string(suite.name) + "|";
     suites += std::string(kLiveSuite) + "|";
-    app.add_option("SUITE,--suite", options.suite,
+    app.add_option("SUITE", options.suite,
                    "quick (the default) or another that comes with the program, or a .json file")
         ->type_name(suites + "FILE");
+    app.add_option("--suite", options.suite, "the same as SUITE")->type_name("SUITE")->excludes("SUITE");
     app.add_flag("--quick", flags.quick, "the suite quick");
     app.add_flag("--list-suites", options.listSuites, "names and titles of the suites that come with the program");
     app.add_option("--scene", options.scenes, "render these scenes instead of the suite's")
@@ -66,8 +67,8 @@ void addSuiteFlags(CLI::App& app, BenchFlags& flags) {
 
 // What is done instead of a suite.
 void addOtherModes(CLI::App& app, BenchOptions& options) {
-    std::vector<CLI::Option*> others = {app.get_option("SUITE"), app.get_option("--quick"), app.get_option("--report"),
-                                        app.get_option("--import")};
+    std::vector<CLI::Option*> others = {app.get_option("SUITE"), app.get_option("--suite"), app.get_option("--quick"),
+                                        app.get_option("--report"), app.get_option("--import")};
     const auto exclude = [&others](CLI::Option* option) {
         for (CLI::Option* other : others) option->excludes(other);
         others.push_back(option);
@@ -126,7 +127,7 @@ std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& ar
             app, arguments, [&] { return benchPageOf(app); }, out))
         return std::nullopt;
     BenchOptions& options = flags.options;
-    if (flags.quick && app.count("SUITE") > 0 && options.suite != "quick")
+    if (flags.quick && app.count("SUITE") + app.count("--suite") > 0 && options.suite != "quick")
         throw UsageError("--quick: " + options.suite + " is another suite");
     checkEngines(options.engines);
     options.imports = parseImports(flags.imports);

@@ -174,6 +174,9 @@ TEST(BenchSuite, CommandLine) {
                                                          {"--engine", "quantum"},
                                                          {"lights", "--quick"}};
     for (const auto& arguments : wrong) EXPECT_THROW(parseBenchOptions(arguments, out), UsageError) << arguments[0];
+    EXPECT_EQ(parseBenchOptions({"--suite", "live"}, out)->suite, "live");
+    EXPECT_THROW(parseBenchOptions({"quick", "--suite", "live"}, out), UsageError);
+    EXPECT_THROW(parseBenchOptions({"live", "--report", "folder"}, out), UsageError);
 }
 
 } // namespace
