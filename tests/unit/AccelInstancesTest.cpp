@@ -46,7 +46,7 @@ TEST(AccelInstances, AreHitLikeTransformedGeometry) {
         placed.addTriangle(a, b, c);
         baked.addTriangle(a, b, c);
     }
-    placed.geometries.push_back({0, 0, 0, 0, 0, 40});
+    placed.geometries.push_back({0, 0, 0, 0, 0, 40, 0, 0});
     std::vector<Placement> places;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> origin(40, {shared::kNone, 0}); // of each baked triangle
     for (std::uint32_t g = 1; g <= 3; ++g) {
@@ -55,7 +55,7 @@ TEST(AccelInstances, AreHitLikeTransformedGeometry) {
             const vec3 a = random.inCube(1.0f);
             placed.addTriangle(a, a + random.inCube(0.5f), a + random.inCube(0.5f));
         }
-        placed.geometries.push_back({0, 0, 0, 0, first, 30});
+        placed.geometries.push_back({0, 0, 0, 0, first, 30, 0, 0});
     }
     placed.geometries.push_back({}); // empty
     for (std::uint32_t i = 0; i < 60; ++i) {
@@ -117,7 +117,7 @@ TEST(AccelInstances, TiesGoToTheWorldAndThenToTheFirstInstance) {
     g.addQuad(vec3(-1.0f, 0.0f, -1.0f), vec3(2.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 2.0f));
     g.addQuad(vec3(-1.0f, 0.0f, -1.0f), vec3(2.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 2.0f));
     for (const bool inWorld : {false, true}) {
-        g.geometries = {{0, 0, 0, inWorld ? 1u : 0u, 0, 0}, {0, 0, 1, 1, 0, 0}};
+        g.geometries = {{0, 0, 0, inWorld ? 1u : 0u, 0, 0, 0, 0}, {0, 0, 1, 1, 0, 0, 0, 0}};
         g.instances.assign(12, makeInstance({glm::dmat3(1.0), glm::dvec3(0.0)}, 1));
         const auto accel = buildAccel(g);
         for (const NamedQuery& q : runnableQueries()) {

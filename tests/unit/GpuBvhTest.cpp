@@ -351,7 +351,7 @@ shared::Instance placedAt(std::uint32_t geometry, shared::vec3 at) {
 TEST(GpuBvh, FollowsInstances) {
     Geometry geometry = mixture(90, 13);
     // The world has the first of each kind; an object the others; one object is empty.
-    geometry.geometries = {{0, 1, 0, 1, 0, 1}, {1, 29, 1, 29, 1, 29}, {0, 0, 0, 0, 0, 0}};
+    geometry.geometries = {{0, 1, 0, 1, 0, 1, 0, 0}, {1, 29, 1, 29, 1, 29, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0}};
     for (int i = 0; i < 7; ++i)
         geometry.instances.push_back(placedAt(i == 3 ? 2 : 1, shared::vec3(30.0f * static_cast<float>(i))));
     const AccelInput input = geometry.input();
