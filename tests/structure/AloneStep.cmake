@@ -41,7 +41,7 @@ endfunction()
 
 if(KIND STREQUAL "libraries")
     # The standard library's, and those whose text does not depend on macros of who includes them.
-    set(names "[a-z_]+|(CLI|embree3|glm|gtest|nlohmann|spdlog|tbb)/.*|(vulkan/vulkan|imgui|Iex|Imf[A-Za-z]*)\\.h")
+    set(names "[a-z_]+|(CLI|embree3|glm|gtest|nlohmann|pybind11|spdlog|tbb)/.*|(vulkan/vulkan|imgui|Iex|Imf[A-Za-z]*)\\.h")
     cmake_host_system_information(RESULT processor QUERY OS_PLATFORM)
     if(processor MATCHES "^(x86_64|amd64)$")
         string(APPEND names "|[a-z]*mmintrin\\.h")

@@ -2,6 +2,7 @@
 // RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_ROUND_LIGHT_H
 #define RT_SHARED_ROUND_LIGHT_H
+#include "Common/Shared/Base/Shim.h"
 #ifdef RT_HEAVY_FEATURES
 #include "Common/Shared/Light/CylinderLight.h"
 #else
