@@ -29,7 +29,7 @@ function(rt_add_build_info target)
 
     set(folder ${PROJECT_BINARY_DIR}/facts)
     set(command ${CMAKE_COMMAND} -DRT_GIT=${RT_GIT} -DRT_ROOT=${PROJECT_SOURCE_DIR} -DRT_HEADER=${folder}/BuildFacts.h
-                "-DRT_FEATURES=${features}" "-DRT_COMPILERS=${compilers}"
+                -DRT_VERSION=${PROJECT_VERSION} "-DRT_FEATURES=${features}" "-DRT_COMPILERS=${compilers}"
                 -P ${PROJECT_SOURCE_DIR}/cmake/WriteBuildFacts.cmake)
     execute_process(COMMAND ${command}) # for whoever compiles a file alone
     add_custom_target(rt-build-facts COMMAND ${command} BYPRODUCTS ${folder}/BuildFacts.h VERBATIM)
@@ -37,5 +37,5 @@ function(rt_add_build_info target)
     target_include_directories(${target} PRIVATE ${folder})
     # Each commit, and each version, compiles this alone.
     set_source_files_properties(${PROJECT_SOURCE_DIR}/Common/Core/BuildInfo.cpp PROPERTIES
-                                SKIP_UNITY_BUILD_INCLUSION ON COMPILE_DEFINITIONS RT_VERSION="${PROJECT_VERSION}")
+                                SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
