@@ -85,7 +85,7 @@ TEST(ShaderGroupsTest, AreThoseOfTheShapesInTheScene) {
     EXPECT_EQ(groupsFor("next-week-quads", settings), (Groups{1, 0}));
     EXPECT_EQ(groupsFor("cornell-box-lights", settings), (Groups{1, 1}));
     settings.features = shared::kFeatureAll;
-    EXPECT_EQ(groupsFor("next-week-quads", settings), (Groups{2, 1}));
+    EXPECT_EQ(groupsFor("next-week-quads", settings), (Groups{2, 2})); // of spheres, and of disks with cylinders
 }
 
 } // namespace
