@@ -27,7 +27,7 @@ class Hits(NamedTuple):
     """What N rays hit. Where a ray hits nothing t is infinite, indices are -1 and vectors 0."""
 
     t: np.ndarray  #: (N,) distance along the ray, world units
-    kind: np.ndarray  #: (N,) int32: 0 sphere, 1 quad, 2 triangle
+    kind: np.ndarray  #: (N,) int32: 0 sphere, 1 quad, 2 triangle, 3 disk or cylinder
     primitive: np.ndarray  #: (N,) int32, among those of its kind
     instance: np.ndarray  #: (N,) int32; -1: of the world itself
     position: np.ndarray  #: (N, 3) world units
@@ -262,8 +262,13 @@ class Scene(collections.abc.MutableMapping):
 
 def load(source: Source) -> Scene:
     """A scene: the id of a built-in one (see scenes()), a file (.json, .obj, .gltf, .glb), or a dict that is laid out
-    like a scene file. A dict is not copied: edit it, or the scene, and render again."""
-    return Scene(source)
+    like a scene file. A dict is not copied: edit it, or the scene, and render again. A name that is neither an id nor a
+    file is an error at once; what is in a file or a dict is read when it is needed."""
+    scene = Scene(source)
+    is_name = isinstance(source, (str, os.PathLike)) and not os.path.exists(source)
+    if is_name and not any(row["id"] == source for row in scenes()):
+        scene.compile()
+    return scene
 
 
 def scenes() -> list[dict[str, str]]:

@@ -24,6 +24,11 @@ class Scenes(unittest.TestCase):
         self.assertEqual(set(scene), set(scene.data))
         self.assertEqual(len(scene), len(scene.data))
 
+    def test_unknown_name_fails_at_once(self):
+        with self.assertRaisesRegex(rt.InputError, "no such scene"):
+            rt.load("cornell-bux")
+        self.assertIn("camera", rt.load("many-lights:20"))  # ids may have a number
+
     def test_dict_renders_as_what_it_was_made_from(self):
         for scene_id in ("cornell-box-lights", "one-weekend-final"):
             with self.subTest(scene=scene_id):
