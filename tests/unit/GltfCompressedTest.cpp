@@ -156,8 +156,14 @@ TEST_F(GltfMeshopt, IsAsItsTwin) {
 TEST_F(GltfMeshopt, FiltersAreUndone) {
     Grid grid(20);
     const std::size_t n = grid.vertices();
-    std::vector<unsigned char> filtered(n * 12);
-    meshopt_encodeFilterExp(filtered.data(), n, 12, 15, grid.positions.data());
+    // 2^-14 times a whole number each: eight bits of exponent above 24 of that number.
+    constexpr int kExponent = -14;
+    std::vector<std::uint32_t> filtered;
+    for (const float value : grid.positions) {
+        const auto mantissa = static_cast<std::int32_t>(std::lround(std::ldexp(value, -kExponent)));
+        filtered.push_back((static_cast<std::uint32_t>(kExponent) << 24) |
+                           (static_cast<std::uint32_t>(mantissa) & 0xffffffu));
+    }
     GltfBuilder gltf;
     const int view = addCompressed(gltf, encode(filtered.data(), n, 12), n, 12, "ATTRIBUTES", "EXPONENTIAL");
     gltf.addNode({{"mesh", gltf.addMesh({{"attributes", {{"POSITION", gltf.addAccessor(view, 5126, "VEC3", n)}}},
