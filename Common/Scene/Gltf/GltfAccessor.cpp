@@ -11,6 +11,7 @@
 #include <glm/common.hpp>
 
 #include "Common/Core/SystemMemory.h"
+#include "Common/Scene/Gltf/GltfComponents.h"
 #include "Common/Scene/Json/JsonNode.h"
 
 namespace rt::scene {
@@ -44,24 +45,6 @@ double decoded(T value, bool isNormalized) {
     if constexpr (std::is_floating_point_v<T>) return double(value);
     if (!isNormalized) return double(value);
     return std::max(double(value) / double(std::numeric_limits<T>::max()), -1.0);
-}
-
-template <typename Function> // (value of the component type)
-void withComponentType(int type, const Function& function) {
-    switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return function(std::int8_t{});
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return function(std::uint8_t{});
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return function(std::int16_t{});
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return function(std::uint16_t{});
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return function(std::uint32_t{});
-        default:
-            return function(float{});
-    }
 }
 
 Source baseOf(const GltfFile& file, const tinygltf::Accessor& accessor, std::size_t elementBytes) {

@@ -20,6 +20,7 @@
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Printable.h"
 #include "Common/Scene/Counted.h"
+#include "Common/Scene/Gltf/GltfComponents.h"
 
 namespace rt::scene {
 
@@ -88,20 +89,8 @@ bool copyValues(const draco::PointAttribute& from, std::uint32_t points, const t
                 std::vector<std::byte>& to) {
     const int width = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(as.type));
     if (width < 1 || width > 4 || from.num_components() != width) return false;
-    switch (as.componentType) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return copyValues<std::int8_t>(from, points, width, to);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return copyValues<std::uint8_t>(from, points, width, to);
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return copyValues<std::int16_t>(from, points, width, to);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return copyValues<std::uint16_t>(from, points, width, to);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return copyValues<std::uint32_t>(from, points, width, to);
-        default:
-            return copyValues<float>(from, points, width, to);
-    }
+    return withComponentType(as.componentType,
+                             [&](auto type) { return copyValues<decltype(type)>(from, points, width, to); });
 }
 
 const tinygltf::Accessor& accessorOf(const GltfFile& file, int index) {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "Common/Scene/Gltf/GltfValues.h"
+
 #ifdef RT_HAS_MESHOPTIMIZER
 #include <meshoptimizer.h>
 #endif
@@ -47,7 +49,7 @@ namespace {
 constexpr const char* kMeshopt = "EXT_meshopt_compression";
 
 std::size_t sizeOf(const tinygltf::Value& object, const char* key) {
-    return object.Has(key) ? static_cast<std::size_t>(object.Get(key).GetNumberAsDouble()) : 0;
+    return static_cast<std::size_t>(numberOf(object, key, 0));
 }
 
 std::string stringOf(const tinygltf::Value& object, const char* key) {

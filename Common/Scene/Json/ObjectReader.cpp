@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
 
 #include <glm/geometric.hpp>
 
@@ -124,17 +125,20 @@ BoxDesc readBox(const JsonNode& node) {
     return box;
 }
 
+// From 0 to below `limit`, the value of the key `name` beside it.
+double readBelow(const JsonNode& node, double limit, const char* name) {
+    const double value = node.number();
+    if (!(value >= 0 && value < limit)) node.failValue(std::string("a number from 0 to below ") + name);
+    return value;
+}
+
 DiskDesc readDisk(const JsonNode& node) {
     node.expectKeys({"type", "center", "normal", "radius", "inner_radius", "material", "light"});
     DiskDesc disk;
     disk.center = node.at("center").vector();
     disk.normal = readDirection(node.at("normal"));
     disk.radius = node.at("radius").positive();
-    if (const auto inner = node.find("inner_radius")) {
-        disk.innerRadius = inner->number();
-        if (!(disk.innerRadius >= 0 && disk.innerRadius < disk.radius))
-            inner->failValue("a number from 0 to below radius");
-    }
+    if (const auto inner = node.find("inner_radius")) disk.innerRadius = readBelow(*inner, disk.radius, "radius");
     return disk;
 }
 
@@ -242,11 +246,8 @@ SpotLightDesc readSpotLight(const JsonNode& node) {
     light.direction = readDirection(node.at("direction"));
     light.intensity = node.at("intensity").vectorWithin(0, kLargest);
     if (const auto outer = node.find("outer_angle")) light.outerAngle = outer->within(kMinSpotAngle, 90);
-    if (const auto inner = node.find("inner_angle")) {
-        light.innerAngle = inner->number();
-        if (!(light.innerAngle >= 0 && light.innerAngle < light.outerAngle))
-            inner->failValue("a number from 0 to below outer_angle");
-    }
+    if (const auto inner = node.find("inner_angle"))
+        light.innerAngle = readBelow(*inner, light.outerAngle, "outer_angle");
     return light;
 }
 
