@@ -25,7 +25,7 @@ struct SceneRequest {
     bool operator==(const SceneRequest&) const = default;
 };
 std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request);
-// Takes a scene that is at hand, in place of what the request's source names.
+// Of a scene that is at hand, in place of what the request's source names.
 std::shared_ptr<const scene::CompiledScene> compile(scene::SceneDesc desc, const SceneRequest& request);
 
 // The camera of a pose that may leave parts of it to the scene. Throws UsageError.
