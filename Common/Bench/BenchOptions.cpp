@@ -123,9 +123,7 @@ std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& ar
     CLI::App app{kBenchDescription, kBenchProgram};
     BenchFlags flags;
     addBenchFlags(app, flags);
-    if (!manual::parse(
-            app, arguments, [&] { return benchPageOf(app); }, out))
-        return std::nullopt;
+    if (!manual::parse(app, arguments, out, [&] { return benchPageOf(app); })) return std::nullopt;
     BenchOptions& options = flags.options;
     if (flags.quick && app.count("SUITE") + app.count("--suite") > 0 && options.suite != "quick")
         throw UsageError("--quick: " + options.suite + " is another suite");

@@ -30,7 +30,7 @@ const Page& askedPage(const CLI::App& app, const Page& page) {
 
 } // namespace
 
-bool parse(CLI::App& app, std::vector<std::string> arguments, const std::function<Page()>& page, std::ostream& out) {
+bool parse(CLI::App& app, std::vector<std::string> arguments, std::ostream& out, const std::function<Page()>& page) {
     std::reverse(arguments.begin(), arguments.end()); // the order in which CLI11 takes them
     try {
         app.parse(std::move(arguments));

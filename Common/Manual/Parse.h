@@ -15,6 +15,6 @@ namespace rt::manual {
 
 // False: what was asked for, a help or the version, is on `out`. `page` makes the program's, of which help on a command
 // takes that command's. Throws UsageError in one line; CLI::FileError, of a configuration file, is the caller's.
-bool parse(CLI::App& app, std::vector<std::string> arguments, const std::function<Page()>& page, std::ostream& out);
+bool parse(CLI::App& app, std::vector<std::string> arguments, std::ostream& out, const std::function<Page()>& page);
 
 } // namespace rt::manual

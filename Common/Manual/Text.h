@@ -16,8 +16,8 @@ inline std::string joined(const std::vector<std::string>& parts, const std::stri
 // The name of a function of a program: _ray_tracing_cpu.
 inline std::string functionOf(const std::string& program) {
     std::string name = "_" + program;
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return c == '-' || c == ' '; }, '_');
+    std::replace(name.begin(), name.end(), '-', '_');
+    std::replace(name.begin(), name.end(), ' ', '_');
     return name;
 }
 

@@ -146,9 +146,9 @@ QuadDesc floorQuad(const StudioPlace& place, const std::string& material) {
 }
 
 bool isSeenFromBelow(const SceneDesc& scene, double floor) {
-    return scene.camera.lookFrom.y < floor ||
-           std::any_of(scene.cameras.begin(), scene.cameras.end(),
-                       [floor](const auto& camera) { return camera.second.lookFrom.y < floor; });
+    const auto isBelow = [floor](const CameraDesc& camera) { return camera.lookFrom.y < floor; };
+    return isBelow(scene.camera) || std::any_of(scene.cameras.begin(), scene.cameras.end(),
+                                                [&](const auto& named) { return isBelow(named.second); });
 }
 
 } // namespace

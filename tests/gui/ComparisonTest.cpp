@@ -173,7 +173,7 @@ TEST_P(ComparisonTest, RunsAreShownMarkedSelectedHiddenAndDeleted) {
                 const std::vector<Place> text = placesOf(asked);
                 const Place below{text.empty() ? 0 : text[0].left - 10, text.empty() ? 0 : text[0].bottom,
                                   text.empty() ? 0 : text[0].right, text.empty() ? 0 : text[0].bottom + 40};
-                if (!isDone() && !text.empty()) clickText("Delete", isDone, below);
+                if (!isDone() && !text.empty()) clickText("Delete", below, isDone);
                 return isDone();
             },
             kSeen);
@@ -199,7 +199,7 @@ TEST_P(SharedComparisonTest, TwoSelectedRowsAreCompared) {
     EXPECT_TRUE(select(1));
     EXPECT_TRUE(select(2, true));
     EXPECT_TRUE(appears("Second against first"));
-    EXPECT_FALSE(isShown("No run of this work yet"));
+    EXPECT_TRUE(eventually([&] { return !isShown("No run of this work yet"); }, kSeen));
     key("b"); // pins
     pause(700);
     EXPECT_TRUE(eventually( // unpins, which clears the comparison

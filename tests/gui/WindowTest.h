@@ -48,7 +48,10 @@ class WindowTest : public Desktop, public testing::WithParamInterface<const char
         return eventually([&] { return isShown(text, within); }, kSeen);
     }
     // Clicks the first place of a text until the condition holds: again where the machine was too busy to see it.
-    bool clickText(const std::string& text, const std::function<bool()>& condition, const Place& within = {}) {
+    bool clickText(const std::string& text, const std::function<bool()>& condition) {
+        return clickText(text, Place{}, condition);
+    }
+    bool clickText(const std::string& text, const Place& within, const std::function<bool()>& condition) {
         return eventually(
             [&] {
                 if (condition()) return true;

@@ -82,8 +82,7 @@ TEST_P(SharedWishesTest, EnterChoosesInAList) {
     ASSERT_FALSE(HasFatalFailure());
     EXPECT_TRUE(eventually(
         [&] { // again where the machine was too busy to see it
-            clickText(
-                "MIS (power heuristic)", [&] { return isShown("Off (BSDF only)"); }, kPanels);
+            clickText("MIS (power heuristic)", kPanels, [&] { return isShown("Off (BSDF only)"); });
             key("Down");
             pause(500);
             key("Return");
@@ -91,7 +90,7 @@ TEST_P(SharedWishesTest, EnterChoosesInAList) {
         },
         kSeen))
         << settings();
-    EXPECT_FALSE(isShown("Off (BSDF only)")); // the list is closed
+    EXPECT_TRUE(eventually([&] { return !isShown("Off (BSDF only)"); }, kSeen)); // the list is closed
     expectCleanEnd();
 }
 
@@ -101,8 +100,7 @@ TEST_P(WishesTest, TheLargestWidthIsNamedAndNothingIsReserved) {
     EXPECT_TRUE(enter("Width", "100000", [&] { return isShown("Width 100000 is more than the most here"); }));
     EXPECT_TRUE(appears("Render at this size", kPanels)); // the largest takes much, too
     EXPECT_LT(residentBytes(), std::uint64_t{2} << 30);
-    EXPECT_TRUE(clickText(
-        "Keep the size", [&] { return !isShown("Render at this size", kPanels); }, kPanels));
+    EXPECT_TRUE(clickText("Keep the size", kPanels, [&] { return !isShown("Render at this size", kPanels); }));
     expectCleanEnd();
 }
 
@@ -149,14 +147,12 @@ TEST_P(SharedWishesTest, TheSceneIsExportedFromThePanelAndNamed) {
     const fs::path file = folder_ / "pictures" / "scene.json";
     const std::string label = "Export the scene";
     // The header, below the progress that says "rendering"; folded it makes room.
-    ASSERT_TRUE(clickText("Rendering", [&] { return !isShown("Samples (SPP)", kPanels); }, {0, 200, kSide, kHeight}));
-    ASSERT_TRUE(clickText(
-        "File", [&] { return isShown(label, kPanels); }, kPanels));
+    ASSERT_TRUE(clickText("Rendering", {0, 200, kSide, kHeight}, [&] { return !isShown("Samples (SPP)", kPanels); }));
+    ASSERT_TRUE(clickText("File", kPanels, [&] { return isShown(label, kPanels); }));
     EXPECT_TRUE(eventually(
         [&] {
             if (!fs::exists(file)) {
-                clickText(
-                    label, [&] { return placesOf(label).size() > 1; }, kPanels);
+                clickText(label, kPanels, [&] { return placesOf(label).size() > 1; });
                 key("Return");
                 pause(1000);
             }

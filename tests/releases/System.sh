@@ -39,10 +39,12 @@ make_system() {
     apt-config dump --format '%f "%v";%n' 'Acquire::http' 'Acquire::https' >"$system/etc/apt/apt.conf.d/90archive"
 }
 
-# run_in SYSTEM COMMAND: with nothing of this environment, and without /sys; what it leaves running ends with it.
+# run_in SYSTEM COMMAND: with nothing of this environment, and without /sys, but with terminals of its own (shells that
+# complete a line want one); what it leaves running ends with it.
 run_in() {
     env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin TERM=dumb \
         ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} \
         unshare --mount --pid --fork --kill-child \
-        sh -c 'mount -t proc proc "$0/proc" && exec chroot "$0" bash -c "$1"' "$1" "$2"
+        sh -c 'mount -t proc proc "$0/proc" && mount -t devpts -o newinstance,ptmxmode=0666 devpts "$0/dev/pts" &&
+            exec chroot "$0" bash -c "$1"' "$1" "$2"
 }

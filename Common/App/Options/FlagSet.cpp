@@ -138,9 +138,7 @@ bool FlagSet::parse(std::vector<std::string> arguments, std::ostream& out) {
         return argument == "--config" || argument.starts_with("--config=");
     }));
     try {
-        if (!manual::parse(
-                app_, std::move(arguments), [this] { return page(); }, out))
-            return false;
+        if (!manual::parse(app_, std::move(arguments), out, [this] { return page(); })) return false;
     } catch (const CLI::FileError&) {
         throw UsageError("--config " + config_->path() + ": cannot be read");
     }

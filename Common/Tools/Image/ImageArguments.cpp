@@ -120,9 +120,7 @@ std::optional<ImageArguments> parseImageArguments(const std::vector<std::string>
     CLI::App app{kDescription, kImageTool};
     ImageArguments parsed;
     addCommands(app, parsed);
-    if (!manual::parse(
-            app, arguments, [&] { return pageOfCommands(app); }, out))
-        return std::nullopt;
+    if (!manual::parse(app, arguments, out, [&] { return pageOfCommands(app); })) return std::nullopt;
     if (app.get_subcommands().empty())
         throw UsageError("a subcommand is required: diff, info, convert, denoise or merge");
     parsed.command = app.get_subcommands().front()->get_name();
