@@ -73,12 +73,14 @@ void tooltip(const char* text) {
     const bool isExplained = whyDisabled != nullptr;
     if ((text == nullptr && !isExplained) || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     if (std::exchange(lastFrame, ImGui::GetFrameCount()) == ImGui::GetFrameCount()) return;
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1); // what is grey would have a tooltip that is grey, too
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26);
     if (text != nullptr) ImGui::TextUnformatted(text);
     if (isExplained) ImGui::TextDisabled("Has no effect now: %s", whyDisabled);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
+    ImGui::PopStyleVar();
 }
 
 void explainDisabled() {

@@ -69,11 +69,11 @@ is_written() {
     grep -rqwF -- "$name" "tests/${1%%.*}"
 }
 
-# bug NAME FILE SED TEST: FILE is the end of one tracked path, SED an expression for it, TEST the one of ctest's that must fail.
+# bug NAME FILE SED TEST: FILE is the end of one path, SED an expression for it, TEST the one of ctest's that must fail.
 bug() {
     local name=$1 file=$2 expression=$3 test=$4 path
     [[ $only == --list || $name =~ $only ]] || return 0
-    path=$(git ls-files "$file" "*/$file")
+    path=$(find . -path './build*' -prune -o -path "*/$file" -type f -printf '%P\n')
     if [[ -z $path || $path == *$'\n'* ]]; then
         fail 'no file' "$name" "$file names not one file"
         return
