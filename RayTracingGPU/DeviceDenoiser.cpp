@@ -13,6 +13,7 @@
 #include "Common/Image/Denoise/DenoiseFilter.h"
 #include "Common/Image/Metrics.h"
 #include "Common/Shared/Denoise/DenoiseLive.h"
+#include "Common/Shared/Denoise/DenoiseMix.h"
 #include "Common/Vulkan/Barrier.h"
 #include "Common/Vulkan/Pipelines.h"
 #include "Common/Vulkan/StagingRing.h"
@@ -27,6 +28,8 @@ using shared::kDenoiseBandwidths;
 using shared::LiveLaunch;
 
 static_assert(shared::kDenoiseRelativeFloor == static_cast<float>(image::kRelativeFloor));
+static_assert(shared::kDenoiseCell == 2 * shared::kDenoiseColumns && shared::kDenoiseCell == shared::kDenoiseRows,
+              "DenoiseBlend.comp has cells of two work groups");
 static_assert(image::kDenoiseCandidates <= 4, "a pixel of a plane has all candidates");
 
 constexpr std::size_t kFourFloats = 4 * sizeof(float), kThreeFloats = 3 * sizeof(float);
@@ -49,6 +52,8 @@ Shader shaderOf(DenoisePass pass) {
             return Shader::DenoiseFit;
         case DenoisePass::Errors:
             return Shader::DenoiseErrors;
+        case DenoisePass::Mix:
+            return Shader::DenoiseMix;
         case DenoisePass::Blend:
             return Shader::DenoiseBlend;
         case DenoisePass::LivePrepare:
@@ -251,6 +256,7 @@ bool DeviceDenoiser::run(std::uint64_t samplesOfHalf, std::uint32_t dependentSid
     if (!fit(launch, cancel)) return false;
     runPass(DenoisePass::Errors, launch, groups());
     mean(shared::kMeansAsTheyAre);
+    runPass(DenoisePass::Mix, launch, groups());
     runPass(DenoisePass::Blend, launch, groups());
     mean(shared::kMeansPositive);
     readSums(dependentSide);

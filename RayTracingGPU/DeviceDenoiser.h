@@ -24,10 +24,10 @@ namespace rt::gpu {
 
 // In their order, but for means, which are taken of what several of them write. The last two are those of live quality,
 // of which Live has the time of all.
-enum class DenoisePass { Depths, Prepare, Mean, Features, Fit, Errors, Blend, LivePrepare, Live };
-inline constexpr std::size_t kDenoisePasses = 9;
+enum class DenoisePass { Depths, Prepare, Mean, Features, Fit, Errors, Mix, Blend, LivePrepare, Live };
+inline constexpr std::size_t kDenoisePasses = 10;
 inline constexpr std::array<const char*, kDenoisePasses> kDenoisePassNames{
-    "depths", "prepare", "mean", "features", "fit", "errors", "blend", "live_prepare", "live"};
+    "depths", "prepare", "mean", "features", "fit", "errors", "mix", "blend", "live_prepare", "live"};
 
 // The compiled shaders, for pictures of any size. Each is compiled when it is first needed.
 class DenoisePipelines {

@@ -35,6 +35,7 @@
     X(DenoiseFeatures, DenoiseFeatures_comp)                   \
     X(DenoiseFit, DenoiseFit_comp)                             \
     X(DenoiseErrors, DenoiseErrors_comp)                       \
+    X(DenoiseMix, DenoiseMix_comp)                             \
     X(DenoiseBlend, DenoiseBlend_comp)                         \
     X(DenoiseDepths, DenoiseDepths_comp)                       \
     X(DenoiseLivePrepare, DenoiseLivePrepare_comp)             \

@@ -24,8 +24,8 @@ const int kDenoiseRows = 16;
 // has to ask where it is. One more than these reach: so the pitch is a whole number of lines of memory.
 const int kDenoiseBorder = kDenoiseReach + kDenoisePatchReach + 1;
 const int kDenoiseTileReach = kDenoiseTile + 2 * kDenoiseReach; // pixels a side of what a tile's pixels are fitted by
-RT_CONST float kDenoiseRelativeFloor = 0.01f;                   // of relMSE's denominator
-const uint kDenoiseSums = 8u;                                   // of a work group: see DenoiseBlend.comp
+const uint kDenoiseSums = 10u;   // of a work group: see DenoiseBlend.comp;
+const uint kDenoiseMixSums = 8u; // from here on those of DenoiseMix.comp
 
 // What a pass that averages over squares does with the means.
 const uint kMeansAsTheyAre = 0u;
@@ -42,7 +42,8 @@ struct DenoiseLaunch {
     PixelPlane features;         // of the surface, of what is in reach of each tile
     MutableWordArray axes;       // how many of these each tile has
     PixelPlane filtered;         // by each candidate: radiance; the two factors, packed
-    PixelPlane values;           // what is averaged over squares: variances; errors of the candidates; squared errors
+    PixelPlane values;           // what is averaged over squares: variances; errors of the candidates; squared errors.
+                                 // Between the last two: the weight of each candidate
     PixelPlane means;            // of these
     MutableVectorArray pictures; // the result, and both halves of it
     MutableFloatArray kept;      // the candidate of each pixel

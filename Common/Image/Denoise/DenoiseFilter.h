@@ -6,6 +6,7 @@
 
 #include "Common/Image/Denoise/Denoiser.h"
 #include "Common/Image/Denoise/Planes.h"
+#include "Common/Shared/Denoise/DenoiseFit.h"
 #include "Common/Shared/Denoise/DenoiseWeights.h"
 
 namespace rt::image {
@@ -23,6 +24,9 @@ struct Halves {
     std::array<Plane, 2> ownFactors[shared::kDenoiseBandwidths], partnerFactors[shared::kDenoiseBandwidths];
     std::uint32_t dependentSide = 1;
     std::uint64_t samplesOfHalf = 0; // of a pixel
+
+    // With fewer samples too many pixels look free of noise.
+    bool mayStayRaw() const { return samplesOfHalf >= shared::kDenoiseRawSamples; }
 };
 
 // What nearly all pixels that see something are nearer than; 1 where there are none.

@@ -11,6 +11,7 @@
 #include "Common/Image/Denoise/Planes.h"
 #include "Common/Image/Metrics.h"
 #include "Common/Shared/Denoise/DenoiseFit.h"
+#include "Common/Shared/Denoise/DenoiseMix.h"
 
 namespace rt::image {
 namespace {
@@ -101,7 +102,7 @@ using Choice = std::array<Plane, kDenoiseCandidates>; // the weight of each cand
 // 1 for the candidate of the least error.
 Choice choose(const Halves& halves, std::size_t threads) {
     const std::size_t width = halves.variance.width(), height = halves.variance.height();
-    const std::size_t candidates = halves.samplesOfHalf >= shared::kDenoiseRawSamples ? kDenoiseCandidates : kRaw;
+    const std::size_t candidates = halves.mayStayRaw() ? kDenoiseCandidates : kRaw;
     Choice errors, chosen;
     for (std::size_t i = 0; i < kDenoiseCandidates; ++i) {
         errors[i] = candidateErrors(halves, i, threads);
@@ -153,7 +154,78 @@ float partnerNoise(const Halves& halves, std::size_t channel, std::size_t x, std
     return count > 0 ? sum / static_cast<float>(count) : 0;
 }
 
-// One row of the result, and of the squared errors.
+// Of one channel of a pixel.
+struct Blended {
+    shared::DenoisedValue a, b; // both halves
+    float mean;                 // of them
+    float noise;                // of the mean: half of theirs, squared
+    float error;                // of the mean, squared, as estimated
+};
+
+Blended blendedAt(const Halves& halves, const Choice& weights, std::size_t channel, std::size_t x, std::size_t y) {
+    Blended result;
+    result.a = blended(halves, weights, 0, channel, x, y);
+    result.b = blended(halves, weights, 1, channel, x, y);
+    const float difference = result.a.filtered - result.b.filtered;
+    result.mean = 0.5f * (result.a.filtered + result.b.filtered);
+    result.noise = 0.25f * difference * difference;
+    result.error = shared::denoiseError(result.a, result.b, partnerNoise(halves, channel, x, y)) - result.noise;
+    return result;
+}
+
+// ---- how much of the filter is kept --------------------------------------------------------------------------------
+
+constexpr std::size_t kCellSide = shared::kDenoiseCell;
+
+struct MixCells {
+    Plane gain, change; // of each cell
+};
+
+MixCells sumCells(const Halves& halves, const Choice& weights, std::size_t threads) {
+    const std::size_t width = halves.variance.width(), height = halves.variance.height();
+    const std::size_t columns = (width + kCellSide - 1) / kCellSide, rows = (height + kCellSide - 1) / kCellSide;
+    MixCells cells{Plane(columns, rows), Plane(columns, rows)};
+    parallelFor(threads, rows, [&](std::size_t row) {
+        for (std::size_t y = row * kCellSide; y < std::min(height, (row + 1) * kCellSide); ++y)
+            for (std::size_t x = 0; x < width; ++x)
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const Blended pixel = blendedAt(halves, weights, c, x, y);
+                    const shared::DenoiseMix mix =
+                        shared::denoiseMix(pixel.a.raw, pixel.b.raw, pixel.a.filtered, pixel.b.filtered, pixel.error);
+                    cells.gain.row(row)[x / kCellSide] += mix.gain;
+                    cells.change.row(row)[x / kCellSide] += mix.change;
+                }
+    });
+    return cells;
+}
+
+float interpolated(const Plane& cells, const shared::DenoiseCellPlace& x, const shared::DenoiseCellPlace& y) {
+    const auto at = [&cells](int column, int row) {
+        column = std::clamp(column, 0, static_cast<int>(cells.width()) - 1);
+        return cells.row(static_cast<std::size_t>(std::clamp(row, 0, static_cast<int>(cells.height()) - 1)))[column];
+    };
+    const auto inRow = [&](int row) { return std::lerp(at(x.first, row), at(x.first + 1, row), x.fraction); };
+    return std::lerp(inRow(y.first), inRow(y.first + 1), y.fraction);
+}
+
+// Gives a part of each pixel back to what it was.
+void mixWithRaw(const Halves& halves, Choice& weights, std::size_t threads) {
+    const MixCells cells = sumCells(halves, weights, threads);
+    parallelFor(threads, halves.variance.height(), [&](std::size_t row) {
+        const shared::DenoiseCellPlace y = shared::denoiseCellPlace(static_cast<int>(row));
+        for (std::size_t column = 0; column < halves.variance.width(); ++column) {
+            const shared::DenoiseCellPlace x = shared::denoiseCellPlace(static_cast<int>(column));
+            const float share =
+                shared::denoiseFilterShare({interpolated(cells.gain, x, y), interpolated(cells.change, x, y)});
+            for (Plane& weight : weights) weight.row(row)[column] *= share;
+            weights[kRaw].row(row)[column] += 1 - share;
+        }
+    });
+}
+
+// ---- the result ----------------------------------------------------------------------------------------------------
+
+// One row of it, and of the squared errors.
 DenoiseErrorSums finishRow(const Halves& halves, const Choice& weights, std::size_t row, Denoised& result,
                            Planes& errors) {
     DenoiseErrorSums sums;
@@ -161,19 +233,14 @@ DenoiseErrorSums finishRow(const Halves& halves, const Choice& weights, std::siz
     for (std::uint32_t x = 0; x < result.picture.width; ++x) {
         double pixel = 0;
         for (std::size_t c = 0; c < 3; ++c) {
-            const shared::DenoisedValue a = blended(halves, weights, 0, c, x, y),
-                                        b = blended(halves, weights, 1, c, x, y);
-            const float mean = 0.5f * (a.filtered + b.filtered), difference = a.filtered - b.filtered;
-            result.halfA.pixel(x, y)[c] = a.filtered;
-            result.halfB.pixel(x, y)[c] = b.filtered;
-            result.picture.pixel(x, y)[c] = mean;
-            // The noise of the mean of both halves is half of theirs.
-            const float noise = 0.25f * difference * difference;
-            const float error = shared::denoiseError(a, b, partnerNoise(halves, c, x, y)) - noise;
-            errors[c].row(y)[x] = error;
-            const double unit = 1 / (double{mean} * mean + kRelativeFloor);
-            pixel += error * unit;
-            sums.minimum += noise * unit;
+            const Blended value = blendedAt(halves, weights, c, x, y);
+            result.halfA.pixel(x, y)[c] = value.a.filtered;
+            result.halfB.pixel(x, y)[c] = value.b.filtered;
+            result.picture.pixel(x, y)[c] = value.mean;
+            errors[c].row(y)[x] = value.error;
+            const double unit = 1 / (double{value.mean} * value.mean + kRelativeFloor);
+            pixel += value.error * unit;
+            sums.minimum += value.noise * unit;
         }
         for (std::size_t i = 0; i < kDenoiseCandidates; ++i)
             *result.bandwidth.pixel(x, y) += weights[i].row(y)[x] * static_cast<float>(i);
@@ -186,10 +253,9 @@ DenoiseErrorSums finishRow(const Halves& halves, const Choice& weights, std::siz
 // Blends the candidates by what the pixels around chose, so that no seam is seen where the choice changes.
 void finish(const Halves& halves, Denoised& result, std::size_t threads) {
     Choice weights = choose(halves, threads);
-    for (std::size_t i = 0; i < kDenoiseCandidates; ++i) {
-        result.shares[i] = meanOf(weights[i]);
-        weights[i] = boxMean(weights[i], shared::kDenoiseBlendReach, threads);
-    }
+    for (Plane& weight : weights) weight = boxMean(weight, shared::kDenoiseBlendReach, threads);
+    if (halves.mayStayRaw()) mixWithRaw(halves, weights, threads);
+    for (std::size_t i = 0; i < kDenoiseCandidates; ++i) result.shares[i] = meanOf(weights[i]);
     const std::size_t width = result.picture.width, height = result.picture.height;
     Planes errors{Plane(width, height), Plane(width, height), Plane(width, height)};
     std::vector<DenoiseErrorSums> rows(height);

@@ -26,7 +26,7 @@ struct Denoised {
     Image halfA, halfB; // filtered, each by weights from the other
     Image error;        // estimated squared error of `picture`, averaged over some pixels
     Image bandwidth;    // one channel: the candidate that was chosen; between two where pixels around chose differently
-    std::array<double, kDenoiseCandidates> shares{}; // of the pixels that chose it
+    std::array<double, kDenoiseCandidates> shares{}; // of the picture, by candidate
     RelMseEstimate relmse;                           // of `picture`
 };
 

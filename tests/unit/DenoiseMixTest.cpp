@@ -1,0 +1,104 @@
+// How much of the filter a picture keeps, against the optimum of known errors and against both pictures.
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "Common/Image/Denoise/Denoiser.h"
+#include "Common/Image/Metrics.h"
+#include "Common/Shared/Denoise/DenoiseMix.h"
+#include "tests/unit/DenoiseInputs.h"
+
+namespace rt::test {
+namespace {
+
+constexpr std::uint32_t kMixSide = 96;
+
+// The optimum for errors of raw halves of standard deviation `noise` and a filter that adds an error of its own, of
+// standard deviation `spoiled`, and lets the share `through` of each half's noise pass: by calculus on
+// E (w F + (1 - w) R - truth)^2.
+double bestShare(double noise, double spoiled, double through) {
+    const double raw = noise * noise / 2, filtered = spoiled * spoiled + through * through * raw;
+    const double common = through * raw;
+    return (raw - common) / (raw + filtered - 2 * common);
+}
+
+double measuredShare(float noise, float spoiled, float through) {
+    constexpr int kPixels = 200000;
+    const float truth = 0.5f;
+    std::mt19937 random(5);
+    std::normal_distribution<float> normal;
+    shared::DenoiseMix sum{0, 0};
+    const float error = spoiled * spoiled + through * through * noise * noise / 2;
+    for (int i = 0; i < kPixels; ++i) {
+        const float a = noise * normal(random), b = noise * normal(random), own = spoiled * normal(random);
+        const shared::DenoiseMix mix =
+            shared::denoiseMix(truth + a, truth + b, truth + through * a + own, truth + through * b + own, error);
+        sum.gain += mix.gain;
+        sum.change += mix.change;
+    }
+    return shared::denoiseFilterShare(sum);
+}
+
+// Fixed seed. A share's standard deviation is below 0.005; units of relMSE, which vary with the pixel, shift it by less
+// than that.
+TEST(DenoiseMix, IsTheBestOfBothPictures) {
+    for (const auto& [noise, spoiled, through] :
+         {std::array{0.02f, 0.002f, 0.0f}, {0.02f, 0.02f, 0.0f}, {0.02f, 0.02f, 0.3f}, {0.01f, 0.03f, 0.1f}})
+        EXPECT_NEAR(measuredShare(noise, spoiled, through), bestShare(noise, spoiled, through), 0.025)
+            << noise << ", " << spoiled << ", " << through;
+}
+
+TEST(DenoiseMix, KeepsTheFilterThatChangesNothingAndIsAShare) {
+    EXPECT_EQ(shared::denoiseFilterShare({0, 0}), 1);
+    EXPECT_EQ(shared::denoiseFilterShare({-1, 2}), 0);
+    EXPECT_EQ(shared::denoiseFilterShare({3, 2}), 1);
+    EXPECT_EQ(shared::denoiseFilterShare({1, 2}), 0.5f);
+}
+
+// Between the middles of cells a place runs from one to the next, without a jump.
+TEST(DenoiseMix, CellsAreInterpolated) {
+    float last = -1;
+    for (int pixel = 0; pixel < 100; ++pixel) {
+        const shared::DenoiseCellPlace place = shared::denoiseCellPlace(pixel);
+        EXPECT_TRUE(place.fraction >= 0 && place.fraction < 1);
+        const float now = static_cast<float>(place.first) + place.fraction;
+        EXPECT_NEAR(now - last, pixel == 0 ? 0.53125f : 0.0625f, 1e-6f);
+        last = now;
+    }
+}
+
+double relMseFrom(const image::Image& image, const image::Image& truth) {
+    double sum = 0;
+    for (std::size_t i = 0; i < image.data.size(); ++i) {
+        const double value = truth.data[i], difference = image.data[i] - value;
+        sum += difference * difference / (value * value + image::kRelativeFloor);
+    }
+    return sum / static_cast<double>(image.data.size());
+}
+
+// A texture that differs from pixel to pixel, which no feature knows, under little noise: what the filter spoils is as
+// much as the noise. A picture without the mix, as one of so few samples is, loses more.
+TEST(DenoiseMix, DetailsAreNotLost) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> detail(0.45f, 0.55f);
+    const image::Image truth = picture(kMixSide, kMixSide, [&](auto, auto, auto) { return detail(random); });
+    std::normal_distribution<float> noise(0, 0.03f);
+    image::DenoiseInput input;
+    for (image::Image* half : {&input.halfA, &input.halfB})
+        *half =
+            picture(kMixSide, kMixSide, [&](auto x, auto y, auto c) { return truth.pixel(x, y)[c] + noise(random); });
+    image::Image raw = input.halfA;
+    for (std::size_t i = 0; i < raw.data.size(); ++i) raw.data[i] = 0.5f * (raw.data[i] + input.halfB.data[i]);
+    const double withoutMix = relMseFrom(image::denoise(input, 1).picture, truth);
+    input.samplesOfHalf = 128;
+    const double withMix = relMseFrom(image::denoise(input, 1).picture, truth);
+    EXPECT_LT(withMix, relMseFrom(raw, truth));
+    EXPECT_LT(withMix, 0.9 * withoutMix);
+}
+
+} // namespace
+} // namespace rt::test
