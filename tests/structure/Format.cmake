@@ -4,7 +4,7 @@
 if(NOT CLANG_FORMAT)
     message(FATAL_ERROR "clang-format was not found. Debian, Ubuntu: apt install clang-format.")
 endif()
-foreach(folder IN ITEMS Common Python RayTracingCPU RayTracingGPU Shaders tests)
+foreach(folder IN ITEMS Common Python RayTracingCPU RayTracingGPU Shaders examples tests)
     file(GLOB_RECURSE found ${ROOT}/${folder}/*.cpp ${ROOT}/${folder}/*.h)
     list(APPEND files ${found})
 endforeach()

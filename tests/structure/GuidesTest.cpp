@@ -46,8 +46,9 @@ Tree readTree() {
     Tree tree;
     const std::set<std::string> texts = {".h",    ".cpp",   ".glsl",  ".comp",  ".frag", ".vert", ".rgen", ".rchit",
                                          ".rint", ".rmiss", ".rcall", ".cmake", ".txt",  ".json", ".sh",   ".py"};
-    for (const char* top : {"Assets", "Common", "Python", "RayTracingCPU", "RayTracingGPU", "Shaders", "cmake", "tests",
-                            "docs", "build.sh", "build.bat", "CMakeLists.txt", "CMakePresets.json", "vcpkg.json"}) {
+    for (const char* top :
+         {"Assets", "Common", "Python", "RayTracingCPU", "RayTracingGPU", "Shaders", "cmake", "tests", "examples",
+          "docs", "build.sh", "build.bat", "CMakeLists.txt", "CMakePresets.json", "vcpkg.json"}) {
         std::vector<fs::path> found = {kSources / top};
         if (fs::is_directory(kSources / top)) {
             found.assign(fs::recursive_directory_iterator(kSources / top), fs::recursive_directory_iterator());
