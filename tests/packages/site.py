@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """The guides as a site: mkdocs makes it without a warning, every link within it leads somewhere, nothing is loaded from
-elsewhere.
+elsewhere, and it has the screenshots of the data for software centres.
     tests/packages/site.py ROOT SCRATCH
 """
+import struct
 import subprocess
 import sys
 import urllib.parse
+import xml.etree.ElementTree
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -30,6 +32,25 @@ class Page(HTMLParser):
             self.loads.append(values[LOADING[tag]])
 
 
+def screenshot_faults(metainfo, site):
+    """What is wrong with the screenshots: pictures of the site, as large as it says, each of them once."""
+    component = xml.etree.ElementTree.parse(metainfo)
+    base = component.findtext("url[@type='homepage']") + "/"
+    images = component.findall("screenshots/screenshot/image")
+    faults = [] if images else ["there are no screenshots"]
+    if len({image.text for image in images}) < len(images):
+        faults.append("a screenshot is there twice")
+    for image in images:
+        file = site / image.text.removeprefix(base)
+        if not image.text.startswith(base) or not file.is_file():
+            faults.append(f"{image.text} is not on the site")
+            continue
+        size = struct.unpack(">II", file.read_bytes()[16:24])  # of a PNG's first chunk
+        if size != (int(image.get("width")), int(image.get("height"))):
+            faults.append(f"{image.text} has {size} pixels")
+    return faults
+
+
 def main(root, site):
     subprocess.run(["mkdocs", "build", "--strict", "--clean", "--quiet", "--config-file", root / "mkdocs.yml",
                     "--site-dir", site], check=True)
@@ -46,6 +67,7 @@ def main(root, site):
             known = pages.get(target)
             if not target.exists() or (parts.fragment and known and parts.fragment not in known.ids):
                 faults.append(f"{path.relative_to(site)}: {url} leads nowhere")
+    faults += screenshot_faults(root / "Assets/desktop/org.example.RayTracingTwins.metainfo.xml", site)
     if len(pages) < 10:
         faults.append(f"only {len(pages)} pages were made")
     print("\n".join(faults), file=sys.stderr, end="")
