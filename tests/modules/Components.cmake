@@ -1,11 +1,11 @@
-# What find_package says of components that there are not, that only headers which are public are installed, and that
-# what they include is installed, too. (That headers compile alone is tested where they stand, by structure.alone, and
-# here at night, by Headers.cmake.)
+# What find_package says of components that there are not; that all libraries link; that only headers which are public
+# are installed, and what they include, too. (That headers compile alone is tested where they stand, by structure.alone,
+# and here at night, by Headers.cmake.)
 #   cmake -DBUILD=... -DCONFIG=... -DROOT=... -DSCRATCH=... -DGENERATOR=... -DCOMPILER=... -P Components.cmake
 include(${CMAKE_CURRENT_LIST_DIR}/Prefix.cmake)
 
-# expect(<arguments of find_package> <pattern> <result, 0 or 1> <option>...)
-function(expect arguments pattern wanted)
+# expect(<arguments of find_package> <what it says> <whether it ends the configuration, 0 or 1> <option>...)
+function(expect arguments pattern ends)
     file(WRITE ${SCRATCH}/finder/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
 project(finder LANGUAGES CXX)
 find_package(RayTracingTwins ${arguments})
@@ -16,7 +16,7 @@ endif()
 ")
     file(REMOVE_RECURSE ${SCRATCH}/finder-build)
     configure(${SCRATCH}/finder -B ${SCRATCH}/finder-build -DCMAKE_CXX_COMPILER_WORKS=ON ${ARGN})
-    if(NOT said MATCHES "${pattern}" OR (result EQUAL 0) EQUAL wanted)
+    if(NOT said MATCHES "${pattern}" OR (result EQUAL 0) EQUAL ends)
         message(SEND_ERROR "find_package(RayTracingTwins ${arguments}) does not say '${pattern}': ${result}, ${said}")
     endif()
 endfunction()
@@ -26,6 +26,58 @@ expect("REQUIRED COMPONENTS scenes" "has no component scenes: it must be among s
 expect("COMPONENTS scenes" "found: (0|FALSE)" 0)
 expect("REQUIRED COMPONENTS scene OPTIONAL_COMPONENTS window" "found: (1|TRUE), scene: (1|TRUE)" 0)
 expect("2.0 REQUIRED" "version.*2.0" 1)
+
+# ---- all libraries link, with whatever they need of others -----------------------------------------------------------
+file(WRITE ${SCRATCH}/links/CMakeLists.txt [[
+cmake_minimum_required(VERSION 3.25)
+project(links LANGUAGES CXX)
+find_package(RayTracingTwins REQUIRED)
+add_executable(links main.cpp)
+target_link_libraries(links PRIVATE RayTracingTwins::cpu)
+if(TARGET RayTracingTwins::gpu)
+    target_link_libraries(links PRIVATE RayTracingTwins::gpu)
+    target_compile_definitions(links PRIVATE HAS_GPU)
+endif()
+]])
+file(WRITE ${SCRATCH}/links/main.cpp [[
+#include <cstdio>
+#include "Common/Core/Error.h"
+#include "Common/Image/Denoise/Denoiser.h"
+#include "Common/Image/ImageIo.h"
+#include "Common/Scene/Gltf/GltfLoader.h"
+#include "Common/Scene/Json/SceneJson.h"
+#include "Common/Scene/Obj/ObjLoader.h"
+#include "RayTracingCPU/CpuEngine.h"
+#ifdef HAS_GPU
+#include "RayTracingGPU/GpuEngine.h"
+#endif
+int main() {
+    try {
+        rt::image::readImage("none.tif");
+        rt::scene::loadSceneFile("none.json"); // from here on linked, but not run
+        rt::scene::loadObjScene("none.obj");
+        rt::scene::loadGltfScene("none.glb");
+        rt::image::denoise({}, 1);
+        rt::cpu::makeCpuEngine({});
+#ifdef HAS_GPU
+        rt::gpu::makeGpuEngine(*static_cast<rt::vulkan::VulkanContext*>(nullptr));
+#endif
+    } catch (const rt::Error& error) {
+        std::puts(error.what());
+    }
+}
+]])
+configure(${SCRATCH}/links -B ${SCRATCH}/links-build)
+if(NOT result EQUAL 0)
+    message(FATAL_ERROR "all components together cannot be configured: ${said}")
+endif()
+execute_process(COMMAND ${CMAKE_COMMAND} --build ${SCRATCH}/links-build OUTPUT_VARIABLE said ERROR_VARIABLE said)
+execute_process(COMMAND ${SCRATCH}/links-build/links OUTPUT_VARIABLE printed)
+if(NOT printed MATCHES "none.tif")
+    message(SEND_ERROR "what links all libraries does not say that there is no file, but '${printed}': ${said}")
+endif()
+
+# ---- what find_package says of a package that lacks something --------------------------------------------------------
 # As of a build without it.
 file(GLOB_RECURSE config ${prefix}/*/RayTracingTwinsConfig.cmake)
 file(READ ${config} text)
