@@ -67,7 +67,8 @@ usage() {
                          as root: ./build.sh run and ./build.sh test on bare systems of each release that is promised
                          (or of some: bookworm, trixie, noble), made in build/releases; hours, for nights
 ./build.sh compilers     build, then compile everything with LLVM's library of C++ and, for Windows, with MinGW
-./build.sh package       packages for this system in build/packages: .deb, and .tar.gz that runs from any folder
+./build.sh package       packages for this system in build/packages: .deb of the programs, of the modules in C++ and of the
+                         Python module, and .tar.gz of the programs that runs from any folder
 ./build.sh package --test
                          then, as root, try them in a bare system (tests/packages/run.sh): for nights
 ./build.sh python        the Python module, installed into the active virtual environment or else for this user, and its
@@ -292,7 +293,7 @@ case $verb in
         ;;
     package)
         [[ -z ${1:-} || $1 == --test ]] || fail "package $1: must be --test or nothing"
-        install_packages "${build_packages[@]}" "${package_packages[@]}"
+        install_packages "${build_packages[@]}" "${package_packages[@]}" "${python_packages[@]}"
         make_packages
         if [[ ${1:-} == --test ]]; then
             install_packages "${release_packages[@]}" lintian

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Tries the packages that ./build.sh package made, in a bare system of a release: the archive of one folder runs where
-# little is installed; the .deb installs, renders on CPU and GPU, opens its windows, is upgraded, and leaves nothing
-# when it is purged.
+# little is installed; the programs' .deb installs, renders on CPU and GPU, opens its windows, and is upgraded; with those
+# beside it Python renders the same picture and the examples are built; all of them leave nothing when they are purged.
 #   tests/packages/run.sh FOLDER [RELEASE]   as root; RELEASE: that of this machine, which the packages were built on
 # The bare system is made once, in FOLDER/RELEASE.bare, and copied for each try. Pictures of the windows stay in FOLDER.
 # Prints a line for each thing tried. Exit code 0: all of them passed.
@@ -23,10 +23,14 @@ release=${2:-$(. /etc/os-release && echo "$VERSION_CODENAME")}
 system=$folder/$release
 log=$folder/$release.log
 [[ " ${releases[*]} " == *" $release "* ]] || fail "$release: must be among ${releases[*]}"
-packages=("$root"/build/packages/*.deb)
+names=(ray-tracing-twins ray-tracing-twins-dev python3-raytracing)
+packages=()
+for name in "${names[@]}"; do
+    packages+=("$root/build/packages/${name}"_*.deb)
+done
 archives=("$root"/build/packages/*.tar.gz)
-((${#packages[@]} == 1 && ${#archives[@]} == 1)) && [[ -e ${packages[0]} && -e ${archives[0]} ]] ||
-    fail "there must be one .deb and one .tar.gz in build/packages: ./build.sh package makes them"
+((${#packages[@]} == 3 && ${#archives[@]} == 1)) && ls "${packages[@]}" "${archives[@]}" >/dev/null ||
+    fail "there must be three .deb and one .tar.gz in build/packages: ./build.sh package makes them"
 : >"$log"
 failures=0
 
@@ -41,9 +45,9 @@ try() {
     fi
 }
 
-# ---- the package by itself -----------------------------------------------------------------------------------------
+# ---- the packages by themselves -------------------------------------------------------------------------------------
 if command -v lintian >/dev/null; then
-    if lintian --allow-root --fail-on error,warning "${packages[0]}" >>"$log" 2>&1; then
+    if lintian --allow-root --fail-on error,warning "${packages[@]}" >>"$log" 2>&1; then
         echo "passed: lintian has neither errors nor warnings"
     else
         echo "FAILED: lintian ($log)"
@@ -54,7 +58,9 @@ else
 fi
 
 # The same bytes wherever it is built: no path of this checkout is in it.
-dpkg-deb -x "${packages[0]}" "$folder/unpacked"
+for package in "${packages[@]}"; do
+    dpkg-deb -x "$package" "$folder/unpacked"
+done
 if grep -rlF "$root" "$folder/unpacked" >>"$log"; then
     echo "FAILED: files name the folder that they were built in ($log)"
     failures=$((failures + 1))
@@ -75,6 +81,8 @@ cp -a "$system.bare" "$system"
 mkdir "$system/packages"
 cp "${archives[0]}" "$system/packages/programs.tar.gz"
 cp "${packages[0]}" "$system/packages/new.deb"
+cp "${packages[1]}" "$system/packages/dev.deb"
+cp "${packages[2]}" "$system/packages/python.deb"
 # The version before: the same files under a lower number.
 dpkg-deb -R "${packages[0]}" "$folder/old"
 sed -i 's/^Version: .*/Version: 0.0.1/' "$folder/old/DEBIAN/control"
@@ -92,7 +100,8 @@ try "the archive of one folder renders, from another folder" "
     '/opt/a folder'/*/bin/ray-tracing-image info /tmp/archive.pfm"
 rm -rf "$system/opt/a folder"
 
-try "the package installs" "$install /packages/old.deb"
+try "the programs install, and neither Python nor what compilers need" "$install /packages/old.deb
+    ! dpkg-query -W -f '\${Package}\n' | grep -E '^python3|-dev\$'"
 backports=
 candidate="apt-cache policy mesa-vulkan-drivers | awk '/Candidate/ { print \$2 }'"
 if run_in "$system" "dpkg --compare-versions \$($candidate) lt 25" >/dev/null 2>&1; then
@@ -137,9 +146,27 @@ for program in cpu gpu; do
         ((colours >= 60000))"
     cp "$system/packages/window-$program.xwd" "$folder/" 2>/dev/null || true
 done
-try "nothing is left when it is purged" "dpkg --purge ray-tracing-twins && $list_files >/packages/after
+# What the other packages need stays in the system, so that theirs alone is compared below.
+try "what compiles the examples and runs Python installs" "$install g++ cmake ninja-build /packages/dev.deb \
+    /packages/python.deb
+    dpkg --purge ${names[*]}
+    $list_files >/packages/before
+    $install /packages/new.deb /packages/dev.deb /packages/python.deb"
+try "Python renders the same picture" "cd / && python3 -c \"
+import raytracing
+raytracing.render('irradiance/quad.json', width=64, spp=4, output='/tmp/python.pfm')\"
+    cmp /tmp/python.pfm /tmp/cpu.pfm"
+try "the examples are built against the installed modules" "
+    for example in /usr/share/doc/ray-tracing-twins-dev/examples/*; do
+        build=/tmp/examples/\${example##*/}
+        cmake -G Ninja -S \$example -B \$build && cmake --build \$build
+        (cd \$build && ./\${example##*/})
+    done
+    rm -r /tmp/examples"
+try "nothing is left when all are purged" "dpkg --purge ${names[*]}
+    $list_files >/packages/after
     diff /packages/before /packages/after
-    ! find /bin /etc /lib /opt /usr /var -xdev -name '*ray-tracing*' -print | grep ."
+    ! find /bin /etc /lib /opt /usr /var -xdev \( -name '*ray-tracing*' -o -name '*raytracing*' \) -print | grep ."
 
 ((failures)) || rm -rf --one-file-system "$system"
 exit $((failures > 0))
