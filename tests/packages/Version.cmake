@@ -1,5 +1,6 @@
 # One version wherever it stands: in CMakeLists.txt, vcpkg.json, the changelog of users and the data for software
-# centres. Libraries of vcpkg have one, too: the baseline is a commit.
+# centres; its first two numbers alone in projects that use the modules, which are bound to these. Libraries of vcpkg
+# have one, too: the baseline is a commit.
 #   cmake -DROOT=... -P Version.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -19,6 +20,12 @@ set(version ${CMAKE_MATCH_1})
 expect_version(vcpkg.json "\"version\": \"([0-9.]+)\"")
 expect_version(CHANGELOG.md "\n## ([0-9.]+)")
 expect_version(Assets/desktop/org.example.RayTracingTwins.metainfo.xml "<release version=\"([0-9.]+)\"")
+
+string(REGEX MATCH "^[0-9]+\\.[0-9]+" version ${version})
+file(GLOB examples RELATIVE ${ROOT} ${ROOT}/examples/*/CMakeLists.txt)
+foreach(file IN ITEMS ${examples} docs/modules.md)
+    expect_version(${file} "find_package\\(RayTracingTwins ([0-9.]+)")
+endforeach()
 
 file(READ ${ROOT}/vcpkg.json manifest)
 string(JSON baseline GET "${manifest}" builtin-baseline)
