@@ -24,8 +24,8 @@ const int kDenoiseRows = 16;
 // has to ask where it is. One more than these reach: so the pitch is a whole number of lines of memory.
 const int kDenoiseBorder = kDenoiseReach + kDenoisePatchReach + 1;
 const int kDenoiseTileReach = kDenoiseTile + 2 * kDenoiseReach; // pixels a side of what a tile's pixels are fitted by
-const uint kDenoiseSums = 10u;   // of a work group: see DenoiseBlend.comp;
-const uint kDenoiseMixSums = 8u; // from here on those of DenoiseMix.comp
+const uint kDenoiseSums = 10u;                                  // of a work group: see DenoiseBlend.comp;
+const uint kDenoiseMixSums = 8u;                                // from here on those of DenoiseMix.comp
 
 // What a pass that averages over squares does with the means.
 const uint kMeansAsTheyAre = 0u;
