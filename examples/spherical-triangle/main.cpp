@@ -42,8 +42,10 @@ void plot(rt::image::Image& map, vec3 direction, vec2 u) {
     const float middle = 0.5f * static_cast<float>(map.width);
     const auto x = static_cast<std::uint32_t>(middle + direction.x * scale);
     const auto y = static_cast<std::uint32_t>(middle - direction.y * scale);
-    float* pixel = map.pixel(std::min(x, map.width - 1), std::min(y, map.height - 1));
-    pixel[0] = u.x, pixel[1] = 0.2f, pixel[2] = u.y;
+    for (std::uint32_t i = 0; i < 9; ++i) {
+        float* pixel = map.pixel(std::min(x + i % 3, map.width - 1), std::min(y + i / 3, map.height - 1));
+        pixel[0] = u.x, pixel[1] = 0.2f, pixel[2] = u.y;
+    }
 }
 
 } // namespace
@@ -69,7 +71,7 @@ int main(int count, char** arguments) try {
         const vec3 direction = sampleSphericalTriangle(triangle, u);
         inside += isInside(direction) ? 1 : 0;
         mean += direction.z / kSamples;
-        if (i < 8000) plot(map, direction, u);
+        if (i < 2000) plot(map, direction, u);
         uniformInside += isInside(sampleSphere(uniforms(i, 2))) ? 1 : 0;
     }
     double irradiance = 0;
