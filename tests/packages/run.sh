@@ -86,7 +86,7 @@ cp "${packages[2]}" "$system/packages/python.deb"
 # The version before: the same files under a lower number.
 dpkg-deb -R "${packages[0]}" "$folder/old"
 sed -i 's/^Version: .*/Version: 0.0.1/' "$folder/old/DEBIAN/control"
-dpkg-deb --root-owner-group -b "$folder/old" "$system/packages/old.deb" >>"$log"
+dpkg-deb --root-owner-group -Znone -b "$folder/old" "$system/packages/old.deb" >>"$log"
 rm -rf "${folder:?}/old"
 
 render="--no-config -q --scene irradiance/quad.json --width 64 --spp 4"
