@@ -74,6 +74,8 @@ usage() {
 ./build.sh python        the Python module, installed into the active virtual environment or else for this user, and its
                          tests (docs/python.md)
 ./build.sh docs          the guides as a site in build/site
+./build.sh guide         the students' guide (docs/guide): runs its notebooks, minutes, and makes the site with their
+                         pictures
 ./build.sh cluster       the same as ./build.sh, and what mpirun needs to share a render out (docs/many-machines.md)
 ./build.sh bench [ARGS]  build, then run ray-tracing-bench with ARGS
 With VCPKG_ROOT set, libraries come from vcpkg; otherwise from apt (Debian 12 or newer, Ubuntu 24.04 or newer).
@@ -185,11 +187,18 @@ python_folder() {
     "$1" -c "import site, sysconfig; print($place)"
 }
 
-install_python_module() {
+# The interpreter of the active virtual environment, or else the system's; it has numpy.
+find_python() {
     local python=${VIRTUAL_ENV:-/usr}/bin/python3
-    [[ -x $python ]] || python=$(command -v python3) || fail "python: there is no python3"
+    [[ -x $python ]] || python=$(command -v python3) || fail "$verb: there is no python3"
     "$python" -c 'import numpy' 2>/dev/null ||
-        fail "python: $python has no numpy. In a virtual environment: pip install numpy"
+        fail "$verb: $python has no numpy. In a virtual environment: pip install numpy"
+    echo "$python"
+}
+
+install_python_module() {
+    local python
+    python=$(find_python)
     configure -DRT_BUILD_PYTHON=ON -DRT_PYTHON="$python" -DRT_PYTHON_DIR="$(python_folder "$python")"
     build --target rt-python ray-tracing-cpu
     step "Installing into $(python_folder "$python")" sh -c '
@@ -198,6 +207,23 @@ install_python_module() {
     for suite in tests/python/test_*.py; do
         step "Testing $suite" env PYTHONDONTWRITEBYTECODE=1 RT_PROGRAM_DIR=build/bin "$python" "$suite"
     done
+}
+
+# The notebooks' pictures in build/guide, and the site with them.
+make_guide() {
+    local python
+    python=$(find_python)
+    configure -DRT_BUILD_PYTHON=ON -DRT_PYTHON="$python"
+    build --target rt-python
+    rm -rf build/guide
+    step "Running the notebooks, minutes" env PYTHONPATH=build/python PYTHONDONTWRITEBYTECODE=1 "$python" \
+        docs/guide/run.py --output build/guide
+    make_site
+    echo "$PWD/build/site/guide/index.html"
+}
+
+make_site() {
+    step "Writing build/site" mkdocs build --clean
 }
 
 # open_window cpu|gpu
@@ -306,8 +332,12 @@ case $verb in
         ;;
     docs)
         install_packages "${docs_packages[@]}"
-        step "Writing build/site" mkdocs build --clean
+        make_site
         echo "$PWD/build/site/index.html"
+        ;;
+    guide)
+        install_packages "${build_packages[@]}" "${python_packages[@]}" "${docs_packages[@]}"
+        make_guide
         ;;
     fuzz)
         fixed=()
