@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <string>
 
+#include "Common/Probe/Densities.h"
 #include "Common/Shared/Path/Vertex.h"
 #include "Python/Arrays.h"
 #include "Python/Bindings.h"
@@ -35,13 +36,7 @@ Vertex vertexOn(const Scene& scene, uint material, const shared::vec3& normal, c
     s.color = shared::vec4(1.0f, 1.0f, 1.0f, 1.0f);
     s.material = material;
     s.light = kNone;
-    PathState path{};
-    path.vertex = 1u;
-    path.ray.direction = -wo;
-    Vertex v{};
-    placeOnSurface(kFeatureAll, scene.view(), path, s, scene.view().materials[material], v);
-    completeVertex(kFeatureAll, scene.view(), v);
-    return v;
+    return probe::vertexOn(scene, s, wo);
 }
 
 struct BsdfArguments {

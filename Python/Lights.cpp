@@ -5,8 +5,8 @@
 #include <pybind11/pybind11.h>
 #include <string>
 
-#include "Common/Shared/Light/LightSelection.h"
-#include "Common/Shared/Path/Mixture.h"
+#include "Common/Probe/Densities.h"
+#include "Common/Shared/Path/DirectLight.h"
 #include "Python/Arrays.h"
 #include "Python/Bindings.h"
 #include "Python/Scene.h"
@@ -65,14 +65,6 @@ py::tuple sampleLights(const Scene& scene, std::int64_t index, const py::object&
     return py::make_tuple(direction.array, distance.array, pdf.array, radiance.array, point.array, towards.array);
 }
 
-// Over solid angle, given this light.
-float pdfAlong(const Scene& scene, const Light& light, const shared::vec3& position, const shared::vec3& normal,
-               float time, const shared::vec3& direction) {
-    if (light.kind == kLightSky) return skyPdf(scene.view(), direction);
-    if (isPunctual(kFeatureAll, light)) return 0.0f;
-    return lightPdfAlong(kFeatureAll, scene.params(), light, position, normal, time, direction);
-}
-
 py::array lightPdfs(const Scene& scene, std::int64_t index, const py::object& points, const py::object& normals,
                     const py::object& directions, const py::object& when) {
     const Light& light = lightAt(scene, index);
@@ -85,23 +77,10 @@ py::array lightPdfs(const Scene& scene, std::int64_t index, const py::object& po
     {
         const py::gil_scoped_release released;
         for (std::size_t i = 0; i < count; ++i)
-            pdf.set(i, pdfAlong(scene, light, scene.toScene(position.vec3(i)), normal.vec3(i), time.number(i),
-                                direction.vec3(i)));
+            pdf.set(i, probe::lightDensity(scene, light, scene.toScene(position.vec3(i)), normal.vec3(i),
+                                           time.number(i), direction.vec3(i)));
     }
     return pdf.array;
-}
-
-LightChoice chosenAt(const Scene& scene, const shared::vec2& u, LightContext& context) {
-    return chooseLight(kFeatureAll, scene.view(), scene.params().lightSelection, scene.compiled()->globals.lightCount,
-                       u, context);
-}
-
-LightContext contextAt(const shared::vec3& position, const shared::vec3& normal) {
-    LightContext context;
-    context.position = position;
-    context.normal = normal;
-    context.total = 0.0f;
-    return context;
 }
 
 py::tuple chooseLights(const Scene& scene, const py::object& points, const py::object& normals,
@@ -116,18 +95,13 @@ py::tuple chooseLights(const Scene& scene, const py::object& points, const py::o
     {
         const py::gil_scoped_release released;
         for (std::size_t i = 0; i < count; ++i) {
-            LightContext context = contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
-            const LightChoice choice = chosenAt(scene, u.vec2(i), context);
+            LightContext context = probe::contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
+            const LightChoice choice = probe::chooseLightAt(scene, u.vec2(i), context);
             light.set(i, static_cast<std::int32_t>(choice.light));
             probability.set(i, choice.light == kNone ? 0.0f : choice.probability);
         }
     }
     return py::make_tuple(light.array, probability.array);
-}
-
-float probabilityOf(const Scene& scene, uint light, const LightContext& context) {
-    return lightProbability(kFeatureAll, scene.view(), scene.params().lightSelection,
-                            scene.compiled()->globals.lightCount, light, context);
 }
 
 py::array lightProbabilities(const Scene& scene, std::int64_t index, const py::object& points,
@@ -140,9 +114,9 @@ py::array lightProbabilities(const Scene& scene, std::int64_t index, const py::o
     {
         const py::gil_scoped_release released;
         for (std::size_t i = 0; i < count; ++i) {
-            LightContext context = contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
-            chosenAt(scene, shared::vec2(0.5f, 0.5f), context); // which leaves the sum of contributions
-            probability.set(i, probabilityOf(scene, static_cast<uint>(index), context));
+            LightContext context = probe::contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
+            probe::chooseLightAt(scene, shared::vec2(0.5f, 0.5f), context); // which leaves the sum of contributions
+            probability.set(i, probe::probabilityOf(scene, static_cast<uint>(index), context));
         }
     }
     return probability.array;
@@ -161,15 +135,9 @@ py::array lightSamplingPdfs(const Scene& scene, const py::object& points, const 
     {
         const py::gil_scoped_release released;
         for (std::size_t i = 0; i < count; ++i) {
-            LightContext context = contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
-            chosenAt(scene, shared::vec2(0.5f, 0.5f), context);
-            float sum = 0.0f;
-            for (uint k = 0; k < scene.compiled()->globals.lightCount; ++k) {
-                const float density = pdfAlong(scene, scene.view().lights[k], context.position, context.normal,
-                                               time.number(i), direction.vec3(i));
-                if (density > 0.0f) sum += density * probabilityOf(scene, k, context);
-            }
-            pdf.set(i, sum);
+            LightContext context = probe::contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
+            probe::chooseLightAt(scene, shared::vec2(0.5f, 0.5f), context);
+            pdf.set(i, probe::lightsDensity(scene, context, time.number(i), direction.vec3(i)));
         }
     }
     return pdf.array;

@@ -17,6 +17,7 @@ PYBIND11_MODULE(_core, module) {
     bindRays(module);
     bindLights(module);
     bindBsdfs(module);
+    bindProbe(module);
     bindSampler(module);
     bindShapes(module);
     bindImages(module);

@@ -1,9 +1,8 @@
 #include "Python/Scene.h"
 
-#include <cmath>
 #include <cstddef>
-#include <filesystem>
-#include <map>
+#include <iterator>
+#include <memory>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <string>
@@ -11,57 +10,13 @@
 #include <vector>
 
 #include "Common/App/Session/SceneSource.h"
-#include "Common/Render/RenderParams.h"
 #include "Common/Render/Stopwatch.h"
-#include "Common/Scene/CameraRecord.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "Python/Bindings.h"
 
 namespace rt::python {
 
 namespace py = pybind11;
-
-Scene::Scene(std::shared_ptr<const scene::CompiledScene> compiled, app::Options options, double seconds)
-    : compiled_(std::move(compiled)), options_(std::move(options)), seconds_(seconds) {
-    const scene::CompiledScene& s = *compiled_;
-    app::settleImageSize(options_, s.id, s.defaults.aspect);
-    for (std::size_t i = 0; i < srgbToLinear_.size(); ++i) {
-        const double encoded = static_cast<double>(i) / 255.0;
-        srgbToLinear_[i] =
-            static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
-    }
-    view_ = shared::viewOf(s, s.globals);
-    view_.srgbToLinear = srgbToLinear_.data();
-    const app::RenderSettings& settings = options_.settings;
-    features_ = app::renderFeatures(s, s.camera, settings);
-    params_ = app::makeRenderParams(s, settings);
-    camera_ = scene::makeCamera(s.camera, settings.width, settings.height, s.origin);
-}
-
-std::shared_ptr<Scene> Scene::with(app::Options options) const {
-    auto scene = std::make_shared<Scene>(compiled_, std::move(options), 0.0);
-    scene->accel_ = accel_;
-    return scene;
-}
-
-const accel::AccelView& Scene::accel() const {
-    const std::scoped_lock lock(accel_->mutex);
-    if (!accel_->built) {
-        const scene::CompiledScene& s = *compiled_;
-        const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
-                                      s.triangles, s.geometries,    s.instances};
-        accel_->built = accel::CpuAccel::build(input, {});
-    }
-    return accel_->built->view();
-}
-
-shared::vec3 Scene::toScene(const shared::vec3& world) const {
-    return shared::vec3(glm::dvec3(world) - compiled_->origin);
-}
-
-shared::vec3 Scene::toWorld(const shared::vec3& scene) const {
-    return shared::vec3(glm::dvec3(scene) + compiled_->origin);
-}
 
 namespace {
 
@@ -92,8 +47,9 @@ std::shared_ptr<Scene> compileText(const std::string& text, const std::string& n
 }
 
 const char* kindOf(const shared::Light& light) {
-    static constexpr const char* kKinds[] = {"sphere",    "quad",  "triangle", "sky",
-                                             "ellipsoid", "point", "spot",     "directional"};
+    static constexpr const char* kKinds[] = {"sphere", "quad",     "triangle", "sky",  "ellipsoid",
+                                             "disk",   "cylinder", "point",    "spot", "directional"};
+    static_assert(std::size(kKinds) == shared::kLightDirectional + 1);
     return kKinds[light.kind];
 }
 

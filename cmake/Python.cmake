@@ -38,7 +38,7 @@ function(rt_add_python_module)
         set_source_files_properties(${PROJECT_SOURCE_DIR}/Python/Arrays.cpp ${PROJECT_SOURCE_DIR}/Python/Shapes.cpp
             PROPERTIES COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:-O3>;-fno-math-errno;-fno-trapping-math")
     endif()
-    target_link_libraries(rt-python PRIVATE rt-app rt-cpu)
+    target_link_libraries(rt-python PRIVATE rt-probe rt-cpu)
     if(RT_BUILD_GPU)
         target_link_libraries(rt-python PRIVATE rt-gpu)
         target_compile_definitions(rt-python PRIVATE RT_HAS_GPU)

@@ -1,4 +1,5 @@
-// ray-tracing-image: compares, describes and converts image files, and joins parts of an image.
+// ray-tracing-image: compares, describes and converts image files, joins parts of an image, and shows how lights are
+// sampled at a point.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -19,6 +20,7 @@
 #include "Common/Image/Metrics.h"
 #include "Common/Render/Names.h"
 #include "Common/Tools/Image/ImageArguments.h"
+#include "Common/Tools/Image/ProbeCommand.h"
 
 namespace {
 
@@ -123,6 +125,10 @@ int run(const std::vector<std::string>& line) {
     if (arguments->command == "diff") return diff(*arguments);
     if (arguments->command == "denoise") return denoise(*arguments);
     if (arguments->command == "merge") return merge(*arguments);
+    if (arguments->command == "probe") {
+        tools::runProbe(*arguments, std::cout);
+        return static_cast<int>(ExitCode::Done);
+    }
     return arguments->command == "info" ? info(*arguments) : convert(*arguments);
 }
 

@@ -1,5 +1,5 @@
-"""The guide for students: its notebooks run, in small, and assert what the text claims; its commands run; its pages name
-only labels that the windows have."""
+"""The guide for students: its notebooks run, in small, and assert what the text claims; its commands run; its pages
+name only labels that the windows have."""
 
 import importlib.util
 import json

@@ -1,10 +1,13 @@
 """Maps of densities over the sphere of directions integrate to one, and lie where lights are."""
 
+import pathlib
+import tempfile
 import unittest
 
 import numpy as np
 
 import raytracing as rt
+from support import run_program
 
 ROOM = {
     "camera": {"look_from": [0, 1, 4], "look_at": [0, 0, 0], "vertical_fov": 40},
@@ -23,7 +26,7 @@ class Probes(unittest.TestCase):
         cls.scene = rt.load(ROOM).compile(width=40)
 
     def test_maps_integrate_to_one(self):
-        for strategy in ("bsdf", "lights", "mixture", 0, 1):
+        for strategy in ("bsdf", "lights", "mixture", "mis", 0, 1):
             with self.subTest(strategy=strategy):
                 probe = rt.probe(self.scene, 20, 20, strategy)
                 self.assertEqual(probe.map.shape, (128, 256))
@@ -58,6 +61,23 @@ class Probes(unittest.TestCase):
         # Rims are known to a place in 64 only, which adds to the statistic.
         self.assertLess(chi_square, degrees + 5 * np.sqrt(2 * degrees) + 0.5 * degrees)
 
+    def test_maps_are_the_densities_of_the_formulas(self):
+        probe = rt.probe(self.scene, 20, 20, "mixture", height=16, side=1)
+        directions = probe.directions.reshape(-1, 3)
+        above = directions @ probe.normal > 0
+        lights = np.where(above, self.scene.light_sampling_pdf(probe.position, probe.normal, directions), 0)
+        bsdf = self.scene.eval_bsdf("floor", probe.normal, probe.wo, directions)[1]
+        np.testing.assert_allclose(probe.map.reshape(-1), (lights + bsdf) / 2, rtol=1e-4, atol=1e-6)
+
+    def test_it_is_that_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene, output = (str(pathlib.Path(folder) / name) for name in ("room.json", "map.pfm"))
+            rt.load(ROOM).save(scene)
+            done = run_program("ray-tracing-image", "probe", scene, "20,20", "--width", 40, "--strategy", "mis", "-o",
+                               output)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            np.testing.assert_array_equal(rt.read_image(output), rt.probe(self.scene, 20, 20, "mis").map)
+
     def test_what_is_no_place(self):
         with self.assertRaisesRegex(ValueError, "^x, y: expected a pixel that shows a surface"):
             rt.probe(self.scene, 0, 0)
@@ -65,6 +85,13 @@ class Probes(unittest.TestCase):
             rt.probe(self.scene, 20, 20, "nothing")
         with self.assertRaisesRegex(ValueError, "^light: expected an index"):
             rt.probe(self.scene, 20, 20, 7)
+        with self.assertRaisesRegex(ValueError, "^light: expected an index"):
+            rt.probe(self.scene, 20, 20, -1)
+        with self.assertRaisesRegex(ValueError, "^x: expected pixels"):
+            rt.probe(self.scene, 40, 20)
+        with self.assertRaisesRegex(ValueError, "^strategy: .* mirror or clear glass"):
+            rt.probe(rt.load({**ROOM, "materials": {**ROOM["materials"], "floor": {
+                "type": "metal", "albedo": [1, 1, 1], "fuzz": 0}}}).compile(width=40), 20, 20, "bsdf")
         with self.assertRaisesRegex(ValueError, "^height, side: expected"):
             rt.probe(self.scene, 20, 20, height=0)
 

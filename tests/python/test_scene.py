@@ -135,6 +135,26 @@ class Scenes(unittest.TestCase):
         self.assertGreater(sum(box.primitives), 5)
         self.assertAlmostEqual(sum(light["power_share"] for light in box.lights), 1, places=5)
 
+    def test_kinds_of_lights(self):
+        lamp = {"material": "lamp"}
+        compiled = rt.load({
+            "materials": {"lamp": {"type": "emitter", "emission": [1, 1, 1]}},
+            "objects": [
+                {"type": "sphere", "center": [0, 2, 0], "radius": 1, **lamp},
+                {"type": "quad", "corner": [0, 5, 0], "edge_u": [1, 0, 0], "edge_v": [0, 0, 1], **lamp},
+                {"type": "mesh", "positions": [0, 8, 0, 1, 8, 0, 0, 9, 0], "triangles": [0, 1, 2], **lamp},
+                {"type": "disk", "center": [0, 11, 0], "normal": [0, 1, 0], "radius": 1, **lamp},
+                {"type": "cylinder", "base": [0, 14, 0], "top": [0, 15, 0], "radius": 1, **lamp},
+                {"type": "group", "transform": [{"scale": [1, 2, 1]}],
+                 "objects": [{"type": "sphere", "center": [5, 2, 0], "radius": 1, **lamp}]},
+                {"type": "point_light", "position": [0, 20, 0], "intensity": [1, 1, 1]},
+                {"type": "spot_light", "position": [0, 21, 0], "direction": [0, -1, 0], "intensity": [1, 1, 1],
+                 "inner_angle": 10, "outer_angle": 20},
+                {"type": "directional_light", "direction": [0, -1, 0], "irradiance": [1, 1, 1]}]}).compile()
+        kinds = {light["kind"] for light in compiled.lights}
+        self.assertEqual(kinds, {"sphere", "quad", "triangle", "disk", "cylinder", "ellipsoid", "point", "spot",
+                                 "directional"})
+
 
 class Module(unittest.TestCase):
     def test_every_flag_is_a_keyword(self):

@@ -26,13 +26,14 @@ const std::map<std::string, std::vector<std::string>> kArrows = {
     {"Common/Render", {"Common/Scene", "Common/Image"}},
     {"Common/App", {"Common/Render", "Common/Manual"}},
     {"Common/Bench", {"Common/App"}},
-    {"Common/Tools", {"Common/App", "Common/Bench"}},
+    {"Common/Probe", {"Common/App", "Common/Accel"}},
+    {"Common/Tools", {"Common/App", "Common/Bench", "Common/Probe"}},
     {"Common/Mpi", {"Common/App"}},
     {"Common/Vulkan", {"Common/Core"}},
     {"Common/Gui", {"Common/App", "Common/Vulkan", "Shaders"}},
     {"RayTracingCPU", {"Common/Render", "Common/Accel"}},
     {"RayTracingGPU", {"Common/Render", "Common/Accel", "Common/Vulkan", "Shaders"}},
-    {"Python", {"Common/App", "RayTracingCPU", "RayTracingGPU"}},
+    {"Python", {"Common/App", "Common/Probe", "RayTracingCPU", "RayTracingGPU"}},
     {"Shaders", {"Common/Shared"}},
 };
 

@@ -1,13 +1,17 @@
 #include "Common/Tools/Image/ImageArguments.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 
 #include "Common/Core/BuildInfo.h"
 #include "Common/Core/Error.h"
+#include "Common/Image/Film.h"
 #include "Common/Manual/Parse.h"
 #include "Common/Render/Names.h"
 
@@ -83,6 +87,58 @@ void addDenoise(CLI::App& app, ImageArguments& arguments) {
     addFile(denoise, "--output,-o", arguments.output, kWritable, "the image to write", true);
 }
 
+// A whole number in a range.
+CLI::Option& addWhole(CLI::App& app, const std::string& flag, std::uint32_t& target, std::uint32_t least,
+                      std::uint32_t most, const std::string& help) {
+    const auto check = [least, most](const std::string& text) {
+        std::uint32_t value = 0;
+        const char* const end = text.data() + text.size();
+        const auto [rest, error] = std::from_chars(text.data(), end, value);
+        const bool isInRange = error == std::errc() && rest == end && value >= least && value <= most;
+        return isInRange
+                   ? std::string()
+                   : text + ": must be a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+    };
+    return *app.add_option(flag, target, help)->check(CLI::Validator(check, ""))->type_name("N");
+}
+
+// How the scene is seen, and how its lights are sampled: as the flags of the programs.
+void addProbeSettings(CLI::App& probe, ProbeArguments& arguments) {
+    probe.add_option("--camera", arguments.camera, "pose as JSON, or the name of one of the scene's cameras")
+        ->type_name("POSE");
+    addWhole(probe, "--width", arguments.width, 1, image::kMaxImageSide, "of the image that the pixel is of")
+        .default_str("600");
+    addWhole(probe, "--height", arguments.height, 1, image::kMaxImageSide, "likewise; by the scene's aspect");
+    addName(probe, "--light-selection", arguments.lightSelection, app::kLightSelections, "how a light is chosen");
+    addName(probe, "--sphere-light", arguments.sphereLight, app::kSphereLights, "where a sphere is sampled");
+    addName(probe, "--quad-light", arguments.quadLight, app::kFlatLights, "where a quad, disk or cylinder is");
+    addName(probe, "--triangle-light", arguments.triangleLight, app::kFlatLights, "where a triangle is");
+}
+
+void addProbe(CLI::App& app, ImageArguments& arguments) {
+    constexpr std::uint32_t kMaxRows = 4096, kMaxSamples = 10000000, kMaxSeed = 0xffffffff;
+    CLI::App& probe = *app.add_subcommand(
+        "probe",
+        "Show what light sampling does at the surface that a pixel shows: the density of a strategy over all "
+        "directions and over the hemisphere, samples, a chi-square test, the variance of each strategy");
+    ProbeArguments& values = arguments.probe;
+    addFile(probe, "SCENE", values.scene, "SCENE", "the scene, as --scene of the programs takes it", true);
+    addFile(probe, "PIXEL", values.pixel, "X,Y", "from the image's upper left, 0,0", true);
+    addFile(probe, "--strategy", values.strategy, "bsdf|lights|mixture|mis|N",
+            "lights: one is chosen and its shape sampled; mixture: half of either; mis: one sample of each; or the "
+            "index of a light, whose shape alone is sampled",
+            false);
+    addFile(probe, "--output,-o", arguments.output, kWritable,
+            "the picture; as .exr, .hdr and .pfm the density alone, per steradian", false);
+    probe.add_flag("--json", values.json, "print the figures as JSON");
+    addProbeSettings(probe, values);
+    addWhole(probe, "--rows", values.rows, 8, kMaxRows, "of the map, which has twice as many columns")
+        .capture_default_str();
+    addWhole(probe, "--samples", values.samples, 2, kMaxSamples, "to draw, and to estimate variances from")
+        .capture_default_str();
+    addWhole(probe, "--seed", values.seed, 0, kMaxSeed, "the same seed draws the same samples").capture_default_str();
+}
+
 void addCommands(CLI::App& app, ImageArguments& arguments) {
     app.set_help_flag("--help,-h", "print the flags and exit");
     addDiff(app, arguments);
@@ -90,6 +146,7 @@ void addCommands(CLI::App& app, ImageArguments& arguments) {
     addConvert(app, arguments);
     addMerge(app, arguments);
     addDenoise(app, arguments);
+    addProbe(app, arguments);
     app.set_help_all_flag("--help-all", "print every flag of every command and exit"); // which commands do not have
     app.set_version_flag("--version", versionText(kImageTool),
                          "print version, commit, features and compilers and exit");
@@ -97,13 +154,16 @@ void addCommands(CLI::App& app, ImageArguments& arguments) {
 }
 
 constexpr const char* kDescription =
-    "Compares, describes and converts images: .png .exr .hdr .pfm, and to read .jpg .bmp .tga .tif .webp.";
+    "Compares, describes and converts images: .png .exr .hdr .pfm, and to read .jpg .bmp .tga .tif .webp. Shows how "
+    "lights are sampled at a point of a scene.";
 
 manual::Page pageOfCommands(const CLI::App& app) {
     manual::Page page = manual::pageOf(app);
     page.examples = {{"ray-tracing-image info spheres.png", "Tell how a picture was rendered."},
                      {"ray-tracing-image diff a.exr b.exr --metric relmse --max 0.01",
-                      "Exit with 5 where a.exr is further from b.exr than that."}};
+                      "Exit with 5 where a.exr is further from b.exr than that."},
+                     {"ray-tracing-image probe veach-mis 300,400 --strategy mis -o probe.png",
+                      "Show which directions MIS samples at a pixel's surface."}};
     return page;
 }
 
@@ -122,7 +182,7 @@ std::optional<ImageArguments> parseImageArguments(const std::vector<std::string>
     addCommands(app, parsed);
     if (!manual::parse(app, arguments, out, [&] { return pageOfCommands(app); })) return std::nullopt;
     if (app.get_subcommands().empty())
-        throw UsageError("a subcommand is required: diff, info, convert, denoise or merge");
+        throw UsageError("a subcommand is required: diff, info, convert, denoise, merge or probe");
     parsed.command = app.get_subcommands().front()->get_name();
     return parsed;
 }

@@ -1,5 +1,6 @@
 // The command line of ray-tracing-image.
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -35,9 +36,22 @@ inline constexpr Metric kMetrics[] = {
     {"psnr", [](const Difference& d) { return d.figures.psnr; }, true},
     {"flip", [](const Difference& d) { return image::flip(d.image, d.reference); }, false}};
 
+// Of `probe`.
+struct ProbeArguments {
+    std::string scene, pixel;
+    std::string strategy = "lights";
+    std::string camera;
+    std::uint32_t width = 0, height = 0; // of the image that the pixel is of; 0: as the programs' flags
+    std::uint32_t rows = 128, samples = 4096;
+    std::uint32_t seed = 0;
+    bool json = false;
+    std::string sphereLight, quadLight, triangleLight, lightSelection; // empty: by default
+};
+
 struct ImageArguments {
-    std::string command; // "diff", "info", "convert", "merge" or "denoise"
+    std::string command; // "diff", "info", "convert", "merge", "denoise" or "probe"
     std::string a, b;
+    ProbeArguments probe;
     std::string metric; // empty: all
     std::optional<double> max;
     std::string output;
