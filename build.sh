@@ -200,7 +200,7 @@ install_python_module() {
     local python
     python=$(find_python)
     configure -DRT_BUILD_PYTHON=ON -DRT_PYTHON="$python" -DRT_PYTHON_DIR="$(python_folder "$python")"
-    build --target rt-python ray-tracing-cpu
+    build --target rt-python ray-tracing-cpu ray-tracing-image
     step "Installing into $(python_folder "$python")" sh -c '
         cmake --install build --component python && cmake --install build --component python-assets'
     local suite
