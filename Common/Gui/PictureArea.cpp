@@ -6,7 +6,7 @@
 
 #include <imgui.h>
 
-#include "Common/App/Interactive/VisibleMaterial.h"
+#include "Common/App/Interactive/VisibleSurface.h"
 #include "Common/Core/Printable.h"
 #include "Common/Gui/Theme.h"
 
@@ -142,9 +142,9 @@ std::string PictureArea::materialAt(const Pixel& pixel, const image::Image& pict
     if (!state.scene) return {};
     if (now != seen_) {
         seen_ = now;
-        const auto material =
-            app::visibleMaterial(*state.scene, now.camera, {picture.width, picture.height}, {pixel[0], pixel[1]});
-        seenMaterial_ = material ? state.scene->materialNames[*material] : "";
+        const auto surface =
+            app::visibleSurface(*state.scene, now.camera, {picture.width, picture.height}, {pixel[0], pixel[1]});
+        seenMaterial_ = surface ? state.scene->materialNames[surface->material] : "";
     }
     return seenMaterial_;
 }

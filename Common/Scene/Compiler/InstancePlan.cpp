@@ -20,7 +20,7 @@ InstancePlan::InstancePlan(const SceneDesc& desc, const MaterialTable& materials
     : desc_(desc), materials_(materials), models_(models) {
     if (instanceCount(desc.objects, "/objects") > kMaxInstances)
         throw InputError(desc_.id + ": the scene comes to more than 2^24 instances");
-    find(desc.objects, toWorld, nullptr);
+    find(desc.objects, toWorld, nullptr, std::nullopt);
     double total = static_cast<double>(primitiveCount(desc.objects));
     for (auto& [name, prototype] : prototypes_) {
         prototype.objects = &desc.prototypes.at(name);
@@ -61,17 +61,22 @@ double InstancePlan::instanceCount(const InstanceDesc& instance, const std::stri
     return instanceCounts_[name] = count;
 }
 
-void InstancePlan::find(const std::vector<ObjectDesc>& objects, const Affine& toWorld, const MaterialDesc* material) {
+// `instance`: that the objects come from; none: they are the scene's own.
+void InstancePlan::find(const std::vector<ObjectDesc>& objects, const Affine& toWorld, const MaterialDesc* material,
+                        const std::optional<std::uint32_t>& instance) {
     for (const ObjectDesc& object : objects) {
         if (const auto* group = std::get_if<GroupDesc>(&object.shape)) {
-            find(group->objects, toWorld * toAffine(group->transform), material);
-        } else if (const auto* instance = std::get_if<InstanceDesc>(&object.shape)) {
-            const Affine placed = toWorld * toAffine(instance->transform);
-            const bool replaces = !material && !instance->material.empty();
-            const MaterialDesc* chosen = replaces ? &materials_.find(instance->material) : material;
-            prototypes_[instance->prototype].occurrences.push_back({placed, chosen});
-            find(desc_.prototypes.at(instance->prototype), placed, chosen);
+            find(group->objects, toWorld * toAffine(group->transform), material, instance);
+            continue;
         }
+        const std::uint32_t number = instance ? *instance : nextObject_++;
+        const auto* placedOne = std::get_if<InstanceDesc>(&object.shape);
+        if (placedOne == nullptr) continue;
+        const Affine placed = toWorld * toAffine(placedOne->transform);
+        const bool replaces = !material && !placedOne->material.empty();
+        const MaterialDesc* chosen = replaces ? &materials_.find(placedOne->material) : material;
+        prototypes_[placedOne->prototype].occurrences.push_back({placed, chosen, number});
+        find(desc_.prototypes.at(placedOne->prototype), placed, chosen, number);
     }
 }
 

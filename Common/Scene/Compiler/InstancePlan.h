@@ -2,7 +2,9 @@
 // instances.
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@ namespace rt::scene {
 struct Occurrence {
     Affine toWorld;
     const MaterialDesc* material; // replaces those of the surfaces unless null
+    std::uint32_t object;         // the instance of the scene's own lists that it comes from, as Origins counts
 
     // All surfaces emit, and emitters are world primitives.
     bool isBaked() const { return material && emits(*material); }
@@ -40,7 +43,8 @@ class InstancePlan {
   private:
     double instanceCount(const std::vector<ObjectDesc>& objects, const std::string& place);
     double instanceCount(const InstanceDesc& instance, const std::string& place);
-    void find(const std::vector<ObjectDesc>& objects, const Affine& toWorld, const MaterialDesc* material);
+    void find(const std::vector<ObjectDesc>& objects, const Affine& toWorld, const MaterialDesc* material,
+              const std::optional<std::uint32_t>& instance);
     std::size_t primitiveCount(const std::vector<ObjectDesc>& objects);
 
     const SceneDesc& desc_;
@@ -49,6 +53,7 @@ class InstancePlan {
     std::map<std::string, Prototype> prototypes_;
     std::map<std::string, double> instanceCounts_; // in one appearance of a prototype
     std::vector<std::string> open_;                // prototypes being counted
+    std::uint32_t nextObject_ = 0;                 // of the scene's own
 };
 
 } // namespace rt::scene

@@ -73,7 +73,23 @@ class Compiler {
         for (std::size_t i = 0; i < objects.size(); ++i) {
             at.place.assign(parent.place).append("/").append(std::to_string(i));
             std::visit([&](const auto& object) { emitOne(object, at); }, objects[i].shape);
+            const bool isGroup = std::holds_alternative<GroupDesc>(objects[i].shape);
+            if (emitsOwnObjects_ && !isGroup) noteOrigin(nextObject_++);
         }
+    }
+
+    // Where the primitives of the world that have come since the last call are from.
+    void noteOrigin(std::uint32_t object) {
+        Origins& origins = out_->origins;
+        const auto note = [object](std::vector<OriginRun>& runs, std::size_t& noted, std::size_t size) {
+            if (size > noted) runs.push_back({static_cast<std::uint32_t>(noted), object});
+            noted = size;
+        };
+        note(origins.spheres, noted_.spheres, out_->spheres.size());
+        note(origins.quads, noted_.quads, out_->quads.size());
+        note(origins.triangles, noted_.triangles, out_->triangles.size());
+        note(origins.rounds, noted_.rounds, out_->rounds.size());
+        note(ellipsoidOrigins_, notedEllipsoids_, sink_.ellipsoids().size());
     }
 
     template <typename Surface>
@@ -162,11 +178,14 @@ class Compiler {
     // ---- geometries and instances ----------------------------------------------------------------------------------
 
     void emitWorld(const InstancePlan& plan, const Affine& toWorld) {
+        emitsOwnObjects_ = true;
         emit(desc_.objects, {toWorld, {}, Part::All, nullptr, "/objects"});
+        emitsOwnObjects_ = false;
         for (const auto& [name, prototype] : plan.prototypes())
             for (const Occurrence& occurrence : prototype.occurrences) {
                 const Part part = prototype.isShared && !occurrence.isBaked() ? Part::Rest : Part::All;
                 emit(*prototype.objects, {occurrence.toWorld, {}, part, occurrence.material, "/prototypes/" + name});
+                noteOrigin(occurrence.object);
             }
         bounds_.add(sink_.finishGeometry(), {});
     }
@@ -184,7 +203,7 @@ class Compiler {
                 if (!occurrence.isBaked())
                     addInstance(occurrence.toWorld, bounds,
                                 occurrence.material ? materials_.index(*occurrence.material) : shared::kNone,
-                                shared::kNone);
+                                shared::kNone, occurrence.object);
         }
     }
 
@@ -200,12 +219,15 @@ class Compiler {
         sink_.finishGeometry();
         Bounds cube;
         cube.add(glm::dvec3(0), 1);
-        for (const Ellipsoid& ellipsoid : sink_.ellipsoids())
-            addInstance(ellipsoid.toWorld, cube, ellipsoid.material, ellipsoid.light);
+        for (std::uint32_t i = 0; i < sink_.ellipsoids().size(); ++i) {
+            const Ellipsoid& ellipsoid = sink_.ellipsoids()[i];
+            addInstance(ellipsoid.toWorld, cube, ellipsoid.material, ellipsoid.light, originOf(ellipsoidOrigins_, i));
+        }
     }
 
     // Of the latest geometry.
-    void addInstance(const Affine& toWorld, const Bounds& bounds, std::uint32_t material, std::uint32_t light) {
+    void addInstance(const Affine& toWorld, const Bounds& bounds, std::uint32_t material, std::uint32_t light,
+                     std::uint32_t object) {
         const std::optional<Affine> toObject = inverse(toWorld);
         if (!toObject) {
             ++droppedInstances_;
@@ -218,6 +240,7 @@ class Compiler {
         instance.material = material;
         instance.light = light;
         out_->instances.push_back(instance);
+        out_->origins.instances.push_back(object);
         bounds_.add(bounds, toWorld);
     }
 
@@ -296,6 +319,11 @@ class Compiler {
     Bounds bounds_; // of everything, in world space
     std::uint64_t droppedMedia_ = 0;
     std::uint64_t droppedInstances_ = 0;
+    bool emitsOwnObjects_ = false; // those of the scene's own lists
+    std::uint32_t nextObject_ = 0; // of them
+    PrimitiveCounts noted_;        // whose origin is
+    std::vector<OriginRun> ellipsoidOrigins_;
+    std::size_t notedEllipsoids_ = 0;
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "Common/App/Interactive/VisibleMaterial.h"
+#include "Common/App/Interactive/VisibleSurface.h"
 
 #include <algorithm>
 #include <limits>
@@ -31,9 +31,9 @@ class Search {
   public:
     Search(const scene::CompiledScene& scene, const shared::Ray& ray) : scene_(scene), ray_(ray) {}
 
-    std::optional<std::uint32_t> run() {
+    std::optional<VisibleSurface> run() {
         if (!isWorthIt(scene_.geometries[0])) return std::nullopt;
-        meet(scene_.geometries[0], ray_, shared::kNone);
+        meet(scene_.geometries[0], ray_, nullptr);
         boxes_.resize(scene_.geometries.size());
         for (const shared::Instance& instance : scene_.instances) {
             const shared::Geometry& geometry = scene_.geometries[instance.geometry];
@@ -45,7 +45,7 @@ class Search {
             const shared::Ray ray = inObject(instance);
             if (!mayMeet(ray, *box)) continue;
             if (!isWorthIt(geometry)) return std::nullopt;
-            meet(geometry, ray, instance.material);
+            meet(geometry, ray, &instance);
         }
         return found_;
     }
@@ -67,34 +67,40 @@ class Search {
         for (std::uint32_t i = first; i < first + count; ++i) visit(i);
     }
 
-    void meet(const shared::Geometry& g, const shared::Ray& ray, std::uint32_t material) {
-        const auto take = [&](float t, std::uint32_t own) {
+    // `instance`: of the geometry; null: it is the world.
+    void meet(const shared::Geometry& g, const shared::Ray& ray, const shared::Instance* instance) {
+        const scene::Origins& origins = scene_.origins;
+        const auto take = [&](float t, std::uint32_t own, const std::vector<scene::OriginRun>& runs, std::uint32_t i) {
             if (!(t > 0)) return;
             nearest_ = t;
-            found_ = material == shared::kNone ? own : material;
+            const bool isReplaced = instance != nullptr && instance->material != shared::kNone;
+            const auto number = instance != nullptr ? instance - scene_.instances.data() : 0;
+            found_ = {isReplaced ? instance->material : own, instance != nullptr
+                                                                 ? origins.instances[static_cast<std::size_t>(number)]
+                                                                 : scene::originOf(runs, i)};
         };
         forEach(g.firstSphere, g.sphereCount, [&](std::uint32_t i) {
             const shared::Sphere& sphere = scene_.spheres[i];
             const float inverseSquaredLength = 1.0f / shared::dot(ray.direction, ray.direction);
             take(shared::intersectSphere(ray, inverseSquaredLength, centerOf(i), sphere.radius, sphere.power, nearest_),
-                 sphere.material);
+                 sphere.material, origins.spheres, i);
         });
         forEach(g.firstQuad, g.quadCount, [&](std::uint32_t i) {
             const shared::Quad& quad = scene_.quads[i];
             const shared::QuadFrame frame = shared::quadFrame(quad.edgeU, quad.edgeV);
-            take(shared::intersectQuad(ray, quad.corner, frame, nearest_).t, quad.material);
+            take(shared::intersectQuad(ray, quad.corner, frame, nearest_).t, quad.material, origins.quads, i);
         });
         forEach(g.firstRound, g.roundCount, [&](std::uint32_t i) {
             const shared::Round& r = scene_.rounds[i];
             const shared::RoundFrame frame = shared::roundFrame(r.edgeU, r.edgeV, r.axis);
-            take(shared::intersectRound(ray, r.origin, frame, r.hole, nearest_), r.material);
+            take(shared::intersectRound(ray, r.origin, frame, r.hole, nearest_), r.material, origins.rounds, i);
         });
         const shared::TriangleRay sheared = shared::makeTriangleRay(ray.direction);
         forEach(g.firstTriangle, g.triangleCount, [&](std::uint32_t i) {
             const shared::uvec3 t = scene_.triangles[i];
             const auto& p = scene_.positions;
             take(shared::intersectTriangle(ray.origin, sheared, p[t.x], p[t.y], p[t.z], nearest_).t,
-                 scene_.meshes[scene_.triangleMesh[i]].material);
+                 scene_.meshes[scene_.triangleMesh[i]].material, origins.triangles, i);
         });
     }
 
@@ -150,14 +156,14 @@ class Search {
     const scene::CompiledScene& scene_;
     const shared::Ray ray_;
     float nearest_ = std::numeric_limits<float>::max();
-    std::optional<std::uint32_t> found_;
+    std::optional<VisibleSurface> found_;
     std::vector<std::optional<Box>> boxes_; // by geometry
     std::uint64_t tests_ = 0;
 };
 
 } // namespace
 
-std::optional<std::uint32_t> visibleMaterial(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
+std::optional<VisibleSurface> visibleSurface(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
                                              const glm::uvec2& size, const glm::uvec2& pixel) {
     const shared::Camera record = scene::makeCamera(camera, size.x, size.y, scene.origin);
     const shared::Ray ray = shared::generateCameraRay(shared::kFeatureNone, record, pixel, size, shared::vec2(0.5f),

@@ -9,11 +9,16 @@
 
 namespace rt::app {
 
-// Index of the material that the ray through the middle of a pixel and of the lens meets first, halfway through the
+struct VisibleSurface {
+    std::uint32_t material; // its index
+    std::uint32_t object;   // that it comes from, as scene::Origins counts
+};
+
+// The surface that the ray through the middle of a pixel and of the lens meets first, halfway through the
 // shutter's time, whether opaque or not; nothing where it meets none. Without a tree, as one ray is not worth building
 // it: of boxes around geometries that instances share, then of all that is in them. Nothing as well where that would
 // take longer than a frame of a window.
-std::optional<std::uint32_t> visibleMaterial(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
+std::optional<VisibleSurface> visibleSurface(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
                                              const glm::uvec2& size, const glm::uvec2& pixel);
 
 } // namespace rt::app

@@ -1,0 +1,326 @@
+#include "Common/Scene/Edit/EditCheck.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "Common/Core/Error.h"
+#include "Common/Scene/Json/PrincipledType.h"
+#include "Common/Scene/Json/SceneJson.h"
+
+namespace rt::scene {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& place, const std::string& why) {
+    throw InputError(place + ": " + why);
+}
+
+// ---- what refers to what -------------------------------------------------------------------------------------------
+
+using VisitName = std::function<void(const std::string&)>;
+
+void visitName(const ColorOrTexture& source, const VisitName& visit) {
+    if (const auto* name = std::get_if<std::string>(&source)) visit(*name);
+}
+
+void forEachTexture(const MaterialDesc& material, const VisitName& visit) {
+    visitName(material.albedo, visit);
+    if (!material.emissionTexture.empty()) visit(material.emissionTexture);
+    forEachPrincipledParameter([&](const SceneParameter&, auto member) {
+        const auto& value = material.principled.*member;
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, ColorOrTexture>) {
+            visitName(value, visit);
+        } else if constexpr (std::is_same_v<Value, NumberOrTexture>) {
+            if (!value.texture.empty()) visit(value.texture);
+        } else if constexpr (std::is_same_v<Value, std::string>) {
+            if (!value.empty()) visit(value);
+        }
+    });
+}
+
+void forEachTexture(const TextureDesc& texture, const VisitName& visit) {
+    if (const auto* checker = std::get_if<CheckerTexture>(&texture)) {
+        visitName(checker->even, visit);
+        visitName(checker->odd, visit);
+    }
+}
+
+void forEachObject(const std::vector<ObjectDesc>& objects, const std::function<void(const ObjectDesc&)>& visit) {
+    for (const ObjectDesc& object : objects) {
+        visit(object);
+        if (const auto* group = std::get_if<GroupDesc>(&object.shape)) forEachObject(group->objects, visit);
+    }
+}
+
+void forEachObject(const SceneDesc& scene, const std::function<void(const ObjectDesc&)>& visit) {
+    forEachObject(scene.objects, visit);
+    for (const auto& [name, objects] : scene.prototypes) forEachObject(objects, visit);
+}
+
+std::size_t textureUses(const SceneDesc& scene, const std::string& texture) {
+    std::size_t uses = 0;
+    const VisitName count = [&](const std::string& name) { uses += name == texture; };
+    for (const auto& [name, material] : scene.materials) forEachTexture(material, count);
+    for (const auto& [name, other] : scene.textures) forEachTexture(other, count);
+    forEachObject(scene, [&](const ObjectDesc& object) {
+        if (const auto* medium = std::get_if<MediumDesc>(&object.shape)) visitName(medium->albedo, count);
+    });
+    return uses;
+}
+
+const InstanceDesc* instanceOf(const ObjectDesc& object) {
+    return std::get_if<InstanceDesc>(&object.shape);
+}
+
+std::size_t prototypeUses(const SceneDesc& scene, const std::string& name) {
+    std::size_t uses = 0;
+    forEachObject(scene, [&](const ObjectDesc& object) {
+        const InstanceDesc* instance = instanceOf(object);
+        uses += instance != nullptr && instance->prototype == name;
+    });
+    return uses;
+}
+
+// Whether a prototype contains another one, or is it.
+bool reaches(const SceneDesc& scene, const std::string& from, const std::string& to, std::set<std::string>& seen) {
+    if (from == to) return true;
+    const auto prototype = scene.prototypes.find(from);
+    if (!seen.insert(from).second || prototype == scene.prototypes.end()) return false;
+    bool found = false;
+    forEachObject(prototype->second, [&](const ObjectDesc& object) {
+        const InstanceDesc* instance = instanceOf(object);
+        found = found || (instance != nullptr && reaches(scene, instance->prototype, to, seen));
+    });
+    return found;
+}
+
+// ---- values --------------------------------------------------------------------------------------------------------
+
+// By the reader of scene files, in a scene of nothing else. `theirs`: the place in that scene, which `place` replaces in
+// what is said.
+void checkByReader(const SceneDesc& small, const std::string& theirs, const std::string& place) {
+    static const std::string kFile = "edit";
+    try {
+        parseScene(toJson(small), kFile, {});
+    } catch (const InputError& error) {
+        std::string text = error.what();
+        if (const std::size_t at = text.find(theirs); at != text.npos) text = place + text.substr(at + theirs.size());
+        throw InputError(text);
+    }
+}
+
+bool isRepresentable(const glm::dvec3& v) {
+    const auto fits = [](double x) { return std::abs(x) <= kLargest; }; // no NaN does
+    return fits(v.x) && fits(v.y) && fits(v.z);
+}
+
+void checkMesh(const MeshData& mesh, const std::string& place) {
+    if (mesh.triangles.empty()) refuse(place, "a mesh must have a triangle");
+    if (!std::ranges::all_of(mesh.positions, isRepresentable)) refuse(place + "/positions", "numbers must be finite");
+    const std::size_t count = mesh.positions.size();
+    for (const glm::uvec3& t : mesh.triangles)
+        if (std::max({t.x, t.y, t.z}) >= count) refuse(place + "/triangles", "an index is that of no position");
+}
+
+class ObjectCheck {
+  public:
+    ObjectCheck(const SceneDesc& scene, const ObjectPath& path) : scene_(scene), prototype_(path.prototype) {}
+
+    void check(const ObjectDesc& object, const std::string& place) const {
+        if (const auto* group = std::get_if<GroupDesc>(&object.shape)) {
+            for (std::size_t i = 0; i < group->objects.size(); ++i)
+                check(group->objects[i], place + "/objects/" + std::to_string(i));
+            GroupDesc empty;
+            empty.transform = group->transform;
+            return checkAlone({empty}, place);
+        }
+        if (const auto* mesh = std::get_if<MeshDesc>(&object.shape)) {
+            if (const auto* data = std::get_if<Boxed<MeshData>>(&mesh->source)) {
+                if (mesh->material.empty()) refuse(place, "a mesh without a file needs a material");
+                checkName(object, place);
+                return checkMesh(**data, place);
+            }
+        }
+        if (const auto* spheres = std::get_if<SphereSetDesc>(&object.shape)) {
+            if (!std::ranges::all_of(spheres->centers, isRepresentable))
+                refuse(place + "/centers", "numbers must be finite");
+            SphereSetDesc one = *spheres;
+            one.centers.assign(1, glm::dvec3(0));
+            return checkAlone({one}, place);
+        }
+        checkAlone(object, place);
+    }
+
+    void checkName(const ObjectDesc& object, const std::string& place) const {
+        const std::string* name = materialNameOf(object);
+        if (name != nullptr && !name->empty() && !scene_.materials.contains(*name))
+            refuse(place + "/material", "\"" + *name + "\" is not the name of a material");
+    }
+
+  private:
+    void checkAlone(const ObjectDesc& object, const std::string& place) const {
+        checkName(object, place);
+        SceneDesc small;
+        if (const std::string* name = materialNameOf(object); name != nullptr && !name->empty())
+            small.materials[*name] = {};
+        if (const auto* medium = std::get_if<MediumDesc>(&object.shape))
+            visitName(medium->albedo, [&](const std::string& name) {
+                if (scene_.textures.contains(name)) small.textures[name] = SolidTexture{};
+            });
+        if (const InstanceDesc* instance = instanceOf(object)) {
+            std::set<std::string> seen;
+            if (!prototype_.empty() && reaches(scene_, instance->prototype, prototype_, seen))
+                refuse(place, "prototype \"" + prototype_ + "\" would contain itself");
+            if (scene_.prototypes.contains(instance->prototype)) small.prototypes[instance->prototype] = {};
+        }
+        small.objects = {object};
+        checkByReader(small, "/objects/0", place);
+    }
+
+    const SceneDesc& scene_;
+    const std::string& prototype_; // that the object is in; empty: in none
+};
+
+// ---- edits ---------------------------------------------------------------------------------------------------------
+
+struct Check {
+    const SceneDesc& scene;
+
+    const ObjectDesc& object(const ObjectPath& path) const {
+        const ObjectDesc* found = findObject(scene, path);
+        if (found == nullptr) refuse(textOf(path), "there is no such object");
+        return *found;
+    }
+
+    void operator()(const SetObject& edit) const {
+        (void)object(edit.path);
+        ObjectCheck(scene, edit.path).check(edit.object, textOf(edit.path));
+    }
+    void operator()(const SetTransform& edit) const {
+        if (transformOf(object(edit.path)) == nullptr) refuse(textOf(edit.path), "such an object has no transform");
+        checkTransform(edit.path, edit.transform);
+    }
+    void operator()(const SetMaterialOf& edit) const {
+        const ObjectDesc& target = object(edit.path);
+        if (materialNameOf(target) == nullptr) refuse(textOf(edit.path), "such an object has no material of its own");
+        const bool mayLack = std::holds_alternative<InstanceDesc>(target.shape) || isMeshFile(target);
+        if (edit.material.empty() && !mayLack) refuse(textOf(edit.path), "such an object needs a material");
+        InstanceDesc named;
+        named.material = edit.material;
+        ObjectCheck(scene, edit.path).checkName({named}, textOf(edit.path));
+    }
+    void operator()(const PlaceObject& edit) const {
+        if (!edit.object) return (void)object(edit.path);
+        ObjectPath last = edit.path;
+        const bool isInList = !last.indices.empty();
+        if (isInList && last.indices.back() > 0) --last.indices.back();
+        const bool isFirst = isInList && edit.path.indices.back() == 0;
+        if (!isInList || !(isFirst ? hasList(edit.path) : findObject(scene, last) != nullptr))
+            refuse(textOf(edit.path), "there is no such place for an object");
+        ObjectCheck(scene, edit.path).check(*edit.object, textOf(edit.path));
+    }
+    void operator()(const WrapObject& edit) const {
+        const ObjectDesc& target = object(edit.path);
+        if (edit.transform) return checkTransform(edit.path, *edit.transform);
+        const auto* group = std::get_if<GroupDesc>(&target.shape);
+        if (group == nullptr || group->objects.size() != 1) refuse(textOf(edit.path), "this is no group of one object");
+    }
+    void operator()(const SetMaterial& edit) const {
+        const std::string place = "/materials/" + edit.name;
+        if (!edit.value)
+            return checkRemoval(scene.materials.contains(edit.name), materialUses(scene, edit.name), place);
+        SceneDesc small;
+        small.materials[edit.name] = *edit.value;
+        forEachTexture(*edit.value, [&](const std::string& name) { addTexture(small, name); });
+        checkByReader(small, place, place);
+    }
+    void operator()(const SetTexture& edit) const {
+        const std::string place = "/textures/" + edit.name;
+        if (!edit.value) return checkRemoval(scene.textures.contains(edit.name), textureUses(scene, edit.name), place);
+        SceneDesc small;
+        forEachTexture(*edit.value, [&](const std::string& name) { addTexture(small, name); });
+        small.textures[edit.name] = *edit.value;
+        checkByReader(small, place, place);
+    }
+    void operator()(const SetPrototype& edit) const {
+        const std::string place = "/prototypes/" + edit.name;
+        if (edit.name.empty()) refuse(place, "a prototype needs a name");
+        if (!edit.value)
+            return checkRemoval(scene.prototypes.contains(edit.name), prototypeUses(scene, edit.name), place);
+        const ObjectPath inside{edit.name, {}};
+        for (std::size_t i = 0; i < edit.value->size(); ++i)
+            ObjectCheck(scene, inside).check((*edit.value)[i], place + "/" + std::to_string(i));
+    }
+    void operator()(const SetCamera& edit) const {
+        SceneDesc small;
+        small.camera = edit.value;
+        checkByReader(small, "/camera", "/camera");
+    }
+    void operator()(const SetBackground& edit) const {
+        SceneDesc small;
+        small.background = edit.value;
+        checkByReader(small, "/background", "/background");
+    }
+    void operator()(const SetRenderDefaults& edit) const {
+        SceneDesc small;
+        small.render = edit.value;
+        checkByReader(small, "/render", "/render");
+    }
+    void operator()(const SetTargets& edit) const {
+        SceneDesc small;
+        small.importanceTargets = edit.value;
+        checkByReader(small, "/importance_targets", "/importance_targets");
+    }
+    void operator()(const SetTitle& edit) const {
+        SceneDesc small;
+        small.title = edit.value;
+        checkByReader(small, "/title", "/title");
+    }
+
+    static bool isMeshFile(const ObjectDesc& object) {
+        const auto* mesh = std::get_if<MeshDesc>(&object.shape);
+        return mesh != nullptr && std::holds_alternative<MeshFile>(mesh->source);
+    }
+    // That the object would be the first of.
+    bool hasList(const ObjectPath& path) const {
+        if (path.indices.size() == 1) return path.prototype.empty() || scene.prototypes.contains(path.prototype);
+        ObjectPath group = path;
+        group.indices.pop_back();
+        const ObjectDesc* around = findObject(scene, group);
+        return around != nullptr && std::holds_alternative<GroupDesc>(around->shape);
+    }
+    void checkTransform(const ObjectPath& path, const Transform& transform) const {
+        GroupDesc group;
+        group.transform = transform;
+        ObjectCheck(scene, path).check({group}, textOf(path));
+    }
+    static void checkRemoval(bool exists, std::size_t uses, const std::string& place) {
+        if (!exists) refuse(place, "there is nothing of this name");
+        if (uses > 0) refuse(place, "cannot be removed while it is used " + std::to_string(uses) + " times");
+    }
+    void addTexture(SceneDesc& small, const std::string& name) const {
+        if (scene.textures.contains(name)) small.textures[name] = SolidTexture{};
+    }
+};
+
+} // namespace
+
+void checkEdit(const SceneDesc& scene, const SceneEdit& edit) {
+    std::visit(Check{scene}, edit);
+}
+
+std::size_t materialUses(const SceneDesc& scene, const std::string& name) {
+    std::size_t uses = 0;
+    forEachObject(scene, [&](const ObjectDesc& object) {
+        const std::string* own = materialNameOf(object);
+        uses += own != nullptr && *own == name;
+    });
+    return uses;
+}
+
+} // namespace rt::scene

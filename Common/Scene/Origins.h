@@ -1,0 +1,32 @@
+// Which object of its description each primitive of a compiled scene comes from.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "Common/Scene/Compiler/Bounds.h"
+
+namespace rt::scene {
+
+struct CompiledScene;
+
+// Primitives from `first` on, up to where the next run begins.
+struct OriginRun {
+    std::uint32_t first;
+    std::uint32_t object;
+};
+
+// Objects are those of the scene's own lists that are no groups, counted depth first (pathOfLeaf() leads back). What
+// stands in a prototype counts as the instance.
+struct Origins {
+    std::vector<OriginRun> spheres, quads, triangles, rounds; // of the world, the geometry without instances
+    std::vector<std::uint32_t> instances;                     // of each
+};
+
+// `runs` are not empty, as there is the primitive.
+std::uint32_t originOf(std::span<const OriginRun> runs, std::uint32_t primitive);
+
+// Of all that comes from these objects, in the units and at the place of the description; empty where nothing does.
+Bounds boundsOfObjects(const CompiledScene& scene, std::uint32_t first, std::uint32_t count);
+
+} // namespace rt::scene
