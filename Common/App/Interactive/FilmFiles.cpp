@@ -17,7 +17,8 @@ std::vector<std::string> writeFilm(const SaveRequest& request, Options options, 
                                    const FilmRun& film, const FilmReference& reference, StopReason reason,
                                    PublishedState& state) {
     const Stopwatch watch;
-    options.scene = scene.request.source;
+    // No flag renders an edited scene again.
+    options.scene = scene.request.source + (scene.request.edits > 0 ? " (edited)" : "");
     options.settings = film.settings();
     options.outputs = request.files;
     options.aovs = request.aovs;

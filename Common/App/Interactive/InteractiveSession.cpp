@@ -82,6 +82,23 @@ bool InteractiveSession::reopen(const std::string& source) {
     return true;
 }
 
+std::uint64_t InteractiveSession::edit(std::vector<scene::SceneEdit> edits, bool isGesture) {
+    const std::uint64_t number = loader_.edit(std::move(edits), isGesture);
+    mailbox_.post(Cancel::Nothing, [this](Requests& requests) {
+        if (requests.scene && !loader_.isWanted(requests.scene->request)) requests.scene.reset();
+        noteChange(requests);
+    });
+    return number;
+}
+
+void InteractiveSession::nameEdited(const std::string& file) {
+    loader_.rename(file);
+    mailbox_.post(Cancel::Nothing, [&](Requests& requests) {
+        requests.sceneFile = file;
+        if (requests.scene && requests.scene->request.edits > 0) requests.scene->request.source = file;
+    });
+}
+
 void InteractiveSession::change(const RenderRequest& request) {
     // Which lights there are is decided by the compiler.
     if (loader_.lastRequest().oneSidedLights != request.oneSidedLights) {

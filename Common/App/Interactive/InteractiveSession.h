@@ -26,6 +26,13 @@ class InteractiveSession {
     void open(const std::string& source);
     // For a file that has changed: gives way to what is being loaded or prepared. Whether it was requested.
     bool reopen(const std::string& source);
+    // From now on the present scene is edited: this is its description, and each edit changes it as the window's own.
+    void startEditing(scene::SceneDesc scene) { loader_.startEditing(std::move(scene)); }
+    void stopEditing() { loader_.stopEditing(); }
+    // The camera stays where it is, and so do all settings; a scene that cannot be had leaves the one before in place.
+    // Returns SessionState::sceneEdits of the scene that has them.
+    std::uint64_t edit(std::vector<scene::SceneEdit> edits, bool isGesture);
+    void nameEdited(const std::string& file); // which the edited scene has been saved to
     void change(const RenderRequest& request);
     void choose(const EngineChoice& engine) {
         mailbox_.post(Cancel::Build, [&](Requests& requests) { requests.engine = engine; });

@@ -115,6 +115,8 @@ struct SessionState {
     std::string source;                        // of the scene, as it was asked for
     std::optional<FileFingerprint> sourceMark; // of that file, as it was read
     std::uint64_t sceneLoads = 0;              // grows with each that was loaded, also anew
+    std::uint64_t sceneReads = 0;              // grows with each that was read from its source
+    std::uint64_t sceneEdits = 0;              // which of the edits it has, as SceneRequest counts; 0: none
     std::string failedSource;                  // of the last scene that could not be had
     std::uint64_t sceneFailures = 0;           // grows with each of them
     std::shared_ptr<const scene::CompiledScene> scene;

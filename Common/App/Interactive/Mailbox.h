@@ -21,7 +21,8 @@ namespace rt::app {
 struct Requests {
     enum class Command { Render, GoOn, Pause, Stop, Reset };
     bool quit = false;
-    bool dropsScene = false; // that was loaded and is not wanted any more
+    bool dropsScene = false;                // that was loaded and is not wanted any more
+    std::optional<std::string> sceneFile{}; // that the edited scene has been saved to
     std::optional<EngineChoice> engine{};
     std::optional<RenderRequest> request{};
     std::optional<LoadedScene> scene{};
@@ -46,7 +47,7 @@ struct Requests {
   private:
     bool changeAllButCamera() const { return engine || request || scene || preview || previewWidth; }
     bool concernFilm() const { return command || view || referenceSpp || referenceFile || focus; }
-    bool concernFiles() const { return quit || !saves.empty() || atEnd; }
+    bool concernFiles() const { return quit || !saves.empty() || atEnd || sceneFile; }
 };
 
 // What is given up for a request, each with those before it.

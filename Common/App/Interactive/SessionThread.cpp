@@ -75,6 +75,7 @@ void SessionThread::apply(Requests requests) {
         isAnother && !goesOn ? film_.change() : requests.request.reset();
     }
     if (requests.scene) adopt(std::move(*requests.scene));
+    if (requests.sceneFile) nameScene(*requests.sceneFile);
     if (requests.camera && requests.camera->first == sceneSerial_ && requests.camera->second != camera_) {
         camera_ = requests.camera->second;
         film_.change();
@@ -127,9 +128,11 @@ void SessionThread::makeEngine(const EngineChoice& choice) {
 
 // A scene that cannot be had leaves the one before in place.
 void SessionThread::adopt(LoadedScene loaded) {
+    const bool isEdited = loaded.request.edits > 0 && loaded_.scene && loaded.request.source == loaded_.request.source;
     const auto failScene = [&](const std::exception_ptr& failure, bool fatal) {
         state_.setStage("");
         state_.update([&](SessionState& state) {
+            if (isEdited) return; // the source itself is well
             state.failedSource = loaded.request.source;
             ++state.sceneFailures;
         });
@@ -157,7 +160,9 @@ void SessionThread::adopt(LoadedScene loaded) {
     } catch (...) {
         return failScene(std::current_exception(), !loaded_.scene);
     }
-    if (!loaded_.scene || scene.id != loaded_.scene->id || scene.camera != loaded_.scene->camera) {
+    if (isEdited) loaded.mark = loaded_.mark; // the file is what it was when it was read
+    const bool isAnother = !loaded_.scene || scene.id != loaded_.scene->id || scene.camera != loaded_.scene->camera;
+    if (isAnother && !isEdited) {
         camera_ = scene.camera;
         ++sceneSerial_;
         if (activity_ == Activity::Stopped) setActivity(Activity::Rendering);
@@ -165,7 +170,8 @@ void SessionThread::adopt(LoadedScene loaded) {
     loaded_ = std::move(loaded);
     film_.discard();
     film_.change();
-    for (const std::string& notice : scene.notices) logInfo(scene.id + ": " + notice);
+    if (!isEdited)
+        for (const std::string& notice : scene.notices) logInfo(scene.id + ": " + notice);
     state_.update([&](SessionState& state) {
         state.stage.clear();
         state.scene = loaded_.scene;
@@ -173,7 +179,19 @@ void SessionThread::adopt(LoadedScene loaded) {
         state.sourceMark = loaded_.mark;
         state.seconds.load = loaded_.seconds;
         ++state.sceneLoads;
+        state.sceneReads += loaded_.request.edits == 0 ? 1 : 0;
+        state.sceneEdits = loaded_.request.edits;
         state.sceneSerial = sceneSerial_;
+    });
+}
+
+void SessionThread::nameScene(const std::string& file) {
+    loaded_.request.source = file;
+    loaded_.mark = markOf(file);
+    state_.update([&](SessionState& state) {
+        state.source = file;
+        state.sourceMark = loaded_.mark;
+        ++state.sceneLoads;
     });
 }
 

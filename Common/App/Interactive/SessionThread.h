@@ -24,6 +24,7 @@ class SessionThread {
     void apply(Requests requests);
     void makeEngine(const EngineChoice& choice);
     void adopt(LoadedScene loaded);
+    void nameScene(const std::string& file);
     void obey(Requests::Command command);
     void switchPreview(bool on);
     void startReference(std::uint32_t spp);

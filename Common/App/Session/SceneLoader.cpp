@@ -1,5 +1,6 @@
 #include "Common/App/Session/SceneLoader.h"
 
+#include <iterator>
 #include <utility>
 
 #include "Common/App/Platform.h"
@@ -9,22 +10,29 @@
 namespace rt::app {
 namespace {
 
-LoadedScene load(const SceneRequest& request, const std::atomic<bool>& callOff) {
-    const Interruptible interruptible(callOff);
+// Whether both are of one scene that is edited, at whatever time.
+bool areOfOneEdit(const SceneRequest& a, SceneRequest b) {
+    if (a.edits == 0 || b.edits == 0) return false;
+    b.edits = a.edits;
+    return a == b;
+}
+
+} // namespace
+
+LoadedScene SceneLoader::load(const SceneRequest& request) {
+    const Interruptible interruptible(callOff_);
     LoadedScene result;
     result.request = request;
     result.mark = markOf(request.source);
     const Stopwatch watch;
     try {
-        result.scene = compile(request);
+        result.scene = request.edits > 0 ? compileKept(*description_, request) : compile(request);
     } catch (...) {
         result.failure = std::current_exception();
     }
     result.seconds = watch.seconds();
     return result;
 }
-
-} // namespace
 
 SceneLoader::SceneLoader(std::function<void(LoadedScene)> onLoaded)
     : onLoaded_(std::move(onLoaded)), thread_([this] { work(); }) {}
@@ -41,10 +49,55 @@ SceneLoader::~SceneLoader() {
 void SceneLoader::request(SceneRequest request) {
     {
         const std::scoped_lock lock(mutex_);
-        last_ = request;
-        next_ = std::move(request);
+        ask(std::move(request));
         callOff_ = true;
-        isGivenUp_ = false;
+    }
+    wake_.notify_one();
+}
+
+void SceneLoader::ask(SceneRequest request) {
+    last_ = request;
+    next_ = std::move(request);
+    isGivenUp_ = false;
+}
+
+void SceneLoader::startEditing(scene::SceneDesc scene) {
+    const std::scoped_lock lock(mutex_);
+    edited_ = handedOver_;
+    nextDescription_ = std::move(scene);
+    nextEdits_.clear();
+}
+
+void SceneLoader::stopEditing() {
+    const std::scoped_lock lock(mutex_);
+    nextDescription_.reset();
+    nextEdits_.clear();
+    forgetsDescription_ = current_.has_value();
+    if (!forgetsDescription_) description_.reset(); // the thread rests
+}
+
+std::uint64_t SceneLoader::edit(std::vector<scene::SceneEdit> edits, bool isGesture) {
+    std::uint64_t number = 0;
+    {
+        const std::scoped_lock lock(mutex_);
+        std::move(edits.begin(), edits.end(), std::back_inserter(nextEdits_));
+        const bool goesOn = isGesture && current_ && current_->edits > 0;
+        edited_.edits = number = ++edits_;
+        ask(edited_);
+        if (!goesOn) callOff_ = true;
+    }
+    wake_.notify_one();
+    return number;
+}
+
+void SceneLoader::rename(const std::string& source) {
+    {
+        const std::scoped_lock lock(mutex_);
+        const bool isBusy = next_ || current_;
+        edited_.source = source;
+        if (last_.edits == 0) return; // another one has been asked for
+        last_.source = handedOver_.source = source;
+        if (isBusy) ask(last_);
     }
     wake_.notify_one();
 }
@@ -58,18 +111,22 @@ void SceneLoader::giveUp() {
 
 bool SceneLoader::isWanted(const SceneRequest& request) const {
     const std::scoped_lock lock(mutex_);
-    return !isGivenUp_ && request == last_;
+    return !isGivenUp_ && (request == last_ || areOfOneEdit(request, last_));
 }
 
 void SceneLoader::open(const std::string& source) {
     const SceneRequest last = lastRequest();
-    request({source, last.oneSidedLights, {}, last.assetsBelow});
+    request({source, last.oneSidedLights, {}, last.assetsBelow, 0});
 }
 
 bool SceneLoader::setOneSidedLights(bool on) {
     SceneRequest last = lastRequest();
     if (last.oneSidedLights == on) return false;
     last.oneSidedLights = on;
+    {
+        const std::scoped_lock lock(mutex_);
+        edited_.oneSidedLights = on;
+    }
     request(std::move(last));
     return true;
 }
@@ -95,10 +152,15 @@ void SceneLoader::work() {
         current_ = std::exchange(next_, std::nullopt);
         const SceneRequest request = *current_;
         callOff_ = false;
+        if (std::exchange(forgetsDescription_, false)) description_.reset();
+        if (nextDescription_) description_ = std::exchange(nextDescription_, std::nullopt);
+        std::vector<scene::SceneEdit> edits = std::exchange(nextEdits_, {});
         lock.unlock();
-        LoadedScene loaded = load(request, callOff_);
+        for (scene::SceneEdit& edit : edits) scene::exchange(*description_, edit);
+        LoadedScene loaded = load(request);
         lock.lock();
-        const bool wanted = !quit_ && !next_ && !isGivenUp_;
+        const bool isOfEarlierEdit = next_ && !callOff_ && loaded.scene && areOfOneEdit(request, *next_);
+        const bool wanted = !quit_ && !isGivenUp_ && (!next_ || isOfEarlierEdit);
         if (wanted) {
             handedOver_ = request;
             lock.unlock();

@@ -9,9 +9,11 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "Common/App/Session/FileFingerprint.h"
 #include "Common/App/Session/SceneSource.h"
+#include "Common/Scene/Edit/SceneEdit.h"
 
 namespace rt::app {
 
@@ -37,10 +39,21 @@ class SceneLoader {
     // What is loaded or has just been; the last request is then the one before that was handed over.
     void giveUp();
     bool isWanted(const SceneRequest& request) const; // nothing else has been requested, nor has it been given up
+    // From now on the scene that was handed over last is edited: this is its description.
+    void startEditing(scene::SceneDesc scene);
+    void stopEditing(); // forgets it
+    // The same edits that the window's own description has got; what they make is compiled and handed over. What is
+    // being compiled of the edits before is called off, unless these are of a gesture: a drag would never show anything.
+    // Returns SceneRequest::edits of what they make.
+    std::uint64_t edit(std::vector<scene::SceneEdit> edits, bool isGesture);
+    // Which file the edited scene is in by now.
+    void rename(const std::string& source);
     // What is being loaded, if anything.
     std::optional<std::string> busyWith() const;
 
   private:
+    LoadedScene load(const SceneRequest& request);
+    void ask(SceneRequest request);
     void work();
 
     std::function<void(LoadedScene)> onLoaded_;
@@ -52,7 +65,13 @@ class SceneLoader {
     std::optional<SceneRequest> next_;
     std::optional<SceneRequest> current_;
     bool quit_ = false;
-    std::atomic<bool> callOff_{false}; // what is being loaded
+    std::atomic<bool> callOff_{false};                // what is being loaded
+    SceneRequest edited_;                             // of the scene that is edited, as it was handed over
+    std::uint64_t edits_ = 0;                         // of requests so far
+    std::optional<scene::SceneDesc> nextDescription_; // of a scene that has begun to be edited
+    std::vector<scene::SceneEdit> nextEdits_;
+    std::optional<scene::SceneDesc> description_; // the thread's own, with all edits but the next ones
+    bool forgetsDescription_ = false;             // when the thread comes to it
     std::thread thread_;
 };
 

@@ -116,13 +116,17 @@ std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request)
     return compile(loadScene(request.source), request);
 }
 
-std::shared_ptr<const scene::CompiledScene> compile(scene::SceneDesc desc, const SceneRequest& request) {
+std::shared_ptr<const scene::CompiledScene> compileKept(const scene::SceneDesc& desc, const SceneRequest& request) {
     const ReadsBelow confined(request.assetsBelow, request.source);
-    std::optional<scene::SceneDesc> kept(std::move(desc));
     scene::CompileOptions options;
     options.installedMaps = true;
-    if (!request.pose.empty()) options.camera = cameraOf(request.pose, *kept);
-    auto compiled = compileWith(*kept, request.oneSidedLights, options);
+    if (!request.pose.empty()) options.camera = cameraOf(request.pose, desc);
+    return compileWith(desc, request.oneSidedLights, options);
+}
+
+std::shared_ptr<const scene::CompiledScene> compile(scene::SceneDesc desc, const SceneRequest& request) {
+    std::optional<scene::SceneDesc> kept(std::move(desc));
+    auto compiled = compileKept(*kept, request);
     kept.reset(); // as large as what was made of it, and engines now want memory
     releaseFreedMemory();
     return compiled;

@@ -1,5 +1,6 @@
 // From what --scene names to a scene.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -22,11 +23,14 @@ struct SceneRequest {
     bool oneSidedLights = true;
     std::string pose = {};        // or name of the camera, as --camera takes it; empty: the scene's own
     std::string assetsBelow = {}; // the folder that the scene's files must lie in; empty: anywhere
+    std::uint64_t edits = 0;      // grows with what has been edited since; 0: the scene is as the source has it
     bool operator==(const SceneRequest&) const = default;
 };
 std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request);
 // Of a scene that is at hand, in place of what the request's source names.
 std::shared_ptr<const scene::CompiledScene> compile(scene::SceneDesc desc, const SceneRequest& request);
+// Likewise, of one that is kept, as it is edited.
+std::shared_ptr<const scene::CompiledScene> compileKept(const scene::SceneDesc& desc, const SceneRequest& request);
 
 // The camera of a pose that may leave parts of it to the scene. Throws UsageError.
 scene::CameraDesc poseOf(const std::string& pose, const scene::CameraDesc& scenes);

@@ -1,0 +1,88 @@
+// The scene of a window as it is edited: its description with its history, what is selected, and the files that it is
+// read from and saved to. All of it is of the window's thread; the session gets each edit, for a description of its own.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Common/App/Interactive/InteractiveSession.h"
+#include "Common/Scene/Edit/SceneDocument.h"
+
+namespace rt::app {
+
+class SceneEditor {
+  public:
+    // `assetsBelow`: as --assets-below.
+    SceneEditor(InteractiveSession& session, std::string assetsBelow)
+        : session_(session), assetsBelow_(std::move(assetsBelow)) {}
+    ~SceneEditor();
+    SceneEditor(const SceneEditor&) = delete;
+    SceneEditor& operator=(const SceneEditor&) = delete;
+
+    // Each frame: another scene ends the editing of the one before. Throws, once, what has kept the description from
+    // being read or saved.
+    void follow(const SessionState& state);
+    // Begins to read the description once more, unless it is there or on its way: what is rendered tells no names.
+    void begin();
+    bool isReading() const { return reading_.valid(); }
+
+    // Null until it is there.
+    const scene::SceneDocument* document() const { return document_ ? &*document_ : nullptr; }
+    // As SceneDocument::perform(), throwing what that does. Requires a document, as do those that follow.
+    void perform(std::string name, std::vector<scene::SceneEdit> edits, std::uint64_t gesture = 0);
+    // In place of what the gesture has done so far: an edit of the scene as it was before that.
+    using MakeEdit = std::function<scene::SceneEdit(const scene::SceneDesc&)>;
+    void performAnew(std::string name, const MakeEdit& make, std::uint64_t gesture);
+    void giveUp(std::uint64_t gesture);
+    void undo();
+    void redo();
+    std::uint64_t newGesture() { return ++gestures_; }
+
+    bool isDirty() const { return document_ && document_->isDirty(); }
+    // As a scene file; what is edited is in that file from then on.
+    void save(const std::string& file);
+    bool isSaving() const { return saving_.valid(); }
+    // Of what this has written, which need not be read again; none yet.
+    const std::optional<FileFingerprint>& savedMark() const { return savedMark_; }
+    std::optional<std::string> takeSaved() { return std::exchange(saved_, std::nullopt); } // once: the file
+
+    // Whether the picture shows the objects that the description has, in that order: then what is seen can be named.
+    bool isInStep(const SessionState& state) const;
+    const std::optional<scene::ObjectPath>& selection() const { return selection_; } // that exists
+    void select(std::optional<scene::ObjectPath> path);
+    // Of what is selected, in the picture's scene; nothing where it has no extent or is not there yet.
+    std::optional<scene::Bounds> selectionBounds(const SessionState& state);
+
+  private:
+    using Read = std::pair<scene::SceneDesc, scene::SceneDesc>; // for the window, for the session
+    void send(bool isGesture);
+    void end();
+
+    InteractiveSession& session_;
+    const std::string assetsBelow_;
+    std::string source_;           // of the scene that there is
+    std::uint64_t sceneReads_ = 0; // that this has followed
+    std::optional<scene::SceneDocument> document_;
+    std::optional<scene::ObjectPath> selection_;
+    std::uint64_t gestures_ = 0;
+    std::uint64_t edits_ = 0;                    // that the session has been sent
+    std::uint64_t structureEdits_ = 0;           // of those, the last one that changed which objects there are
+    std::uint64_t sentStructure_ = 0;            // of the document, as it was then
+    std::shared_ptr<std::atomic<bool>> callOff_; // what is being read
+    std::future<Read> reading_;
+    std::future<std::string> saving_;
+    std::optional<std::string> saved_;
+    std::optional<FileFingerprint> savedMark_;
+    struct Measured { // whose bounds are known
+        std::shared_ptr<const scene::CompiledScene> scene;
+        scene::ObjectPath path;
+        std::optional<scene::Bounds> bounds;
+    } measured_;
+};
+
+} // namespace rt::app
