@@ -62,7 +62,8 @@ class App {
                options.program == app::kGpuProgram,
                program.devices,
                other_,
-               options.assetsBelow} {
+               options.assetsBelow,
+               editor_} {
         gui_.showFirstSteps = !std::exchange(settings_.sawFirstSteps, true);
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
     }
@@ -80,6 +81,7 @@ class App {
     void saveChart(const std::function<void(VkCommandBuffer)>& drawInterface);
     void drawFrame(bool isShown);
     void drawInterface();
+    bool askBeforeClosing();
     void rescue();
 
     app::Options options_;
@@ -94,6 +96,7 @@ class App {
     app::CameraController camera_;
     std::atomic<bool> isNews_{false}; // there is something new of the session
     app::InteractiveSession session_;
+    app::SceneEditor editor_{session_, options_.assetsBelow};
     app::OtherEngine other_{history_, [this] { isNews_ = true; }};
     Gui gui_;
     PictureArea picture_{gui_};
@@ -118,7 +121,8 @@ class App {
 };
 
 ExitCode App::run(const std::atomic<bool>& isInterrupted) {
-    while (!window_.shouldClose() && !isInterrupted) {
+    while (!isInterrupted) {
+        if (window_.shouldClose() && !askBeforeClosing()) break;
         wait();
         turn();
     }
@@ -130,6 +134,15 @@ ExitCode App::run(const std::atomic<bool>& isInterrupted) {
     const bool losesNothing = isInterrupted && !files.hasFilm;
     if (!files.failures.empty() && !losesNothing) throw RenderError(files.failures.front());
     return isInterrupted ? ExitCode::Interrupted : ExitCode::Done;
+}
+
+// Whether the window stays open for that.
+bool App::askBeforeClosing() {
+    if (!gui_.editor.isDirty() || gui_.editing.isDiscarded) return false;
+    window_.stayOpen();
+    gui_.close();
+    isNews_ = true;
+    return true;
 }
 
 // Whether something may move by itself.
@@ -251,9 +264,10 @@ void App::drawFrame(bool isShown) {
     thumbnails_.beginFrame();
     for (const InputEvent& event : input_)
         if (isKeyPress(event)) obeyKey(gui_, event);
+    followEditing(gui_);
     drawInterface();
     flying_ = fly(gui_, input_, seconds);
-    gui_.isHeld = flying_ || ImGui::IsAnyMouseDown();
+    gui_.isHeld = flying_ || ImGui::IsAnyMouseDown() || gui_.editing.tool;
     isShown ? imgui_.endFrame() : imgui_.dropFrame();
     link_.send();
     if (gui_.saveRequested || !gui_.saveAs.empty()) save();
@@ -292,6 +306,7 @@ void App::drawInterface() {
     picture_.place(area, innerArea(gui_, area, scale));
     gui_.previewWidth = picture_.previewWidth();
     picture_.handlePointer();
+    drawSelection(gui_, picture_.imageRect(), area);
     drawViewLegend(gui_, area, scale);
     drawChips(gui_, area, picture_.imageRect(), scale);
     drawOverlay(gui_, area, scale);
@@ -299,6 +314,7 @@ void App::drawInterface() {
     drawScenes(gui_);
     drawHelp(gui_);
     drawFirstSteps(gui_, area);
+    drawUnsaved(gui_);
     if (gui_.browser.isOpen())
         if (const auto file = gui_.browser.draw(settings_.recent)) gui_.take(*file);
 }

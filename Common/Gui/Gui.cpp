@@ -19,7 +19,12 @@ namespace rt::gui {
 void Gui::openScene(const std::string& source) {
     std::error_code none;
     const bool isFile = std::filesystem::exists(source, none);
-    session.open(isFile ? std::filesystem::absolute(source, none).string() : source);
+    const std::string whole = isFile ? std::filesystem::absolute(source, none).string() : source;
+    onceSaved(*this, [this, whole] { session.open(whole); });
+}
+
+void Gui::close() {
+    onceSaved(*this, [this] { window.close(); });
 }
 
 void Gui::stepScene(int step) {
@@ -52,6 +57,7 @@ std::optional<app::RunRecord> Gui::workInView() const {
 
 std::string Gui::whyNotOther() const {
     if (!state.scene) return "There is no scene yet";
+    if (state.sceneEdits > 0) return "The scene has been edited here: save it and open the file first";
     if (state.picture.isPreview) return "Ray tracing is off here";
     if (!settings.request.accumulate) return "Frames of their own are no render to compare with";
     if (settings.request.settings.features) return "The features are forced by --features, which is for one program";
@@ -102,6 +108,7 @@ void Gui::frameAll() {
 
 // As --export-scene does, which reads the scene once more: what is rendered is no text any more.
 void Gui::exportScene() {
+    if (editor.document() != nullptr) return saveSceneAs(*this); // with what has been edited
     if (state.scene) browse(BrowseFor::Export);
 }
 
@@ -210,6 +217,9 @@ void Gui::browse(BrowseFor what) {
         case BrowseFor::Export:
             request = {"Export the scene", "Export", {".json"}, saveFolder(settings.saveFolder), "scene.json", true};
             break;
+        case BrowseFor::SaveScene:
+            request = {"Save the scene", "Save", {".json"}, saveFolder(settings.saveFolder), "scene.json", true};
+            break;
     }
     browser.open(std::move(request));
 }
@@ -226,7 +236,9 @@ void Gui::take(const std::filesystem::path& file) {
                 settings.saveFolder = file.parent_path().string();
             return;
         case BrowseFor::Export:
-            exporting.start(state.source, assetsBelow, file.string());
+            return exporting.start(state.source, assetsBelow, file.string());
+        case BrowseFor::SaveScene:
+            editor.save(file.string());
     }
 }
 

@@ -12,6 +12,7 @@
 #include "Common/App/Interactive/GuiSettings.h"
 #include "Common/App/Interactive/InteractiveSession.h"
 #include "Common/App/Interactive/OtherEngine.h"
+#include "Common/App/Interactive/SceneEditor.h"
 #include "Common/App/Interactive/SceneExport.h"
 #include "Common/Gui/FileBrowser.h"
 #include "Common/Gui/FrameTimer.h"
@@ -19,6 +20,7 @@
 #include "Common/Gui/Layout.h"
 #include "Common/Gui/PinnedView.h"
 #include "Common/Gui/RunBoard.h"
+#include "Common/Gui/SceneEditing.h"
 #include "Common/Gui/Thumbnails.h"
 #include "Common/Gui/Window.h"
 
@@ -31,7 +33,7 @@ struct PictureView {
 };
 
 // What the file browser is open for.
-enum class BrowseFor { Scene, Reference, Picture, Export };
+enum class BrowseFor { Scene, Reference, Picture, Export, SaveScene };
 
 // Members that are not const are for the parts to change; App sends what has changed.
 struct Gui {
@@ -45,8 +47,11 @@ struct Gui {
     const std::vector<app::EngineDevice> devices; // of ray-tracing-gpu, those that are suitable
     app::OtherEngine& other;
     const std::string assetsBelow; // as --assets-below says
+    app::SceneEditor& editor;
 
     app::SessionState state; // of this frame
+    SceneEditing editing;
+    Rect shownImage; // the whole picture's, in the window's units
     PictureView view;
     app::ViewRequest viewRequest;
     bool showGrid = false, showHistogram = false; // of the picture
@@ -84,8 +89,9 @@ struct Gui {
     app::SceneExport exporting;
     float autoExposure = 0; // stops, of the picture
 
-    void openScene(const std::string& source);
-    void stepScene(int step); // through the built-in ones, round and round
+    void openScene(const std::string& source); // once edits of the one before are saved or not wanted
+    void close();                              // the window, likewise
+    void stepScene(int step);                  // through the built-in ones, round and round
     std::string pictureTitle() const;
     std::optional<app::RunRecord> workInView() const; // of the picture, by this program; none of a preview
     std::string whyNotOther() const;                  // the other program cannot do the same; empty: it can

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include <imgui.h>
 
@@ -138,7 +139,7 @@ std::optional<PictureArea::Pixel> PictureArea::pixelUnderPointer() const {
 // Its name; empty where none is known.
 std::string PictureArea::materialAt(const Pixel& pixel, const image::Image& picture) {
     const app::SessionState& state = gui_.state;
-    const Seen now{state.sceneSerial, gui_.camera.camera(), {pixel[0], pixel[1], picture.width, picture.height}};
+    const Seen now{state.sceneLoads, gui_.camera.camera(), {pixel[0], pixel[1], picture.width, picture.height}};
     if (!state.scene) return {};
     if (now != seen_) {
         seen_ = now;
@@ -184,6 +185,8 @@ void PictureArea::handlePointer() {
     drawGrid();
     const std::optional<Pixel> pixel = inside ? pixelUnderPointer() : std::nullopt;
     inspect(pixel);
+    if (gui_.editing.tool) return handleTool();
+    select(inside, pixel);
     if (inside && io.MouseClicked[0] && (gui_.pickFocus || io.KeyCtrl)) {
         gui_.pickFocus = false;
         dragging_ = false; // the press that picks does not orbit
@@ -196,6 +199,22 @@ void PictureArea::handlePointer() {
     }
     if (dragging_ && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) drag();
     if (inside && io.MouseWheel != 0) turnWheel();
+}
+
+// A click says where the object stays that the pointer has, and does nothing else.
+void PictureArea::handleTool() {
+    dragging_ = false;
+    if (ImGui::GetIO().MouseClicked[0]) endTool(gui_, true);
+    if (ImGui::GetIO().MouseClicked[1]) endTool(gui_, false);
+}
+
+// By a press and its release, unless the pointer has been dragged in between.
+void PictureArea::select(bool inside, const std::optional<Pixel>& pixel) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.MouseClicked[0]) isClick_ = inside && !gui_.pickFocus && !io.KeyCtrl && !io.KeyAlt && !isSplit();
+    if (ImGui::IsMouseDragging(0)) isClick_ = false;
+    if (!io.MouseReleased[0] || !std::exchange(isClick_, false) || !inside) return;
+    pixel ? pickObject(gui_, *pixel) : deselect(gui_);
 }
 
 void PictureArea::drag() {

@@ -41,13 +41,15 @@ class PictureArea {
     void mark(const Pixel& pixel) const;
     void inspect(const std::optional<Pixel>& pixel);
     void drag();
+    void handleTool();
+    void select(bool inside, const std::optional<Pixel>& pixel);
     void turnWheel();
 
     std::string materialAt(const Pixel& pixel, const image::Image& picture);
 
     // What the last pixel asked for was of, and the material it shows.
     struct Seen {
-        std::uint64_t sceneSerial = 0;
+        std::uint64_t sceneLoads = 0;
         scene::CameraDesc camera;
         std::array<std::uint32_t, 4> place{}; // pixel and size
         bool operator==(const Seen&) const = default;
@@ -57,6 +59,7 @@ class PictureArea {
     Rect area_, inner_;
     Seen seen_;
     std::string seenMaterial_;
+    bool isClick_ = false;  // a press in the picture that has not become a drag
     bool dragging_ = false; // a drag that began in the picture goes on outside of it
 };
 

@@ -66,7 +66,8 @@ void SessionLink::take() {
         sentCamera_ = state.scene->camera;
     }
     rememberScene();
-    if (gui_.settings.reloadScenes) followFile();
+    showTitle();
+    if (gui_.settings.reloadScenes && !gui_.editor.isDirty() && !gui_.editor.isSaving()) followFile();
     if (state.focusSerial != focusSerial_) {
         focusSerial_ = state.focusSerial;
         gui_.camera.focusAt(state.focusDistance, 1);
@@ -112,8 +113,10 @@ void SessionLink::rememberScene() {
     }
     if (state.sceneLoads == sceneLoads_) return;
     sceneLoads_ = state.sceneLoads;
-    gui_.window.setTitle(state.scene->title + " - " + options_.program);
     gui_.errors.dismiss(app::ErrorSource::Scene);
+    // Of an edit there is no more to tell.
+    if (std::exchange(sceneReads_, state.sceneReads) == state.sceneReads && state.source == rememberedSource_) return;
+    rememberedSource_ = state.source;
     settings.scene = state.source;
     std::error_code none;
     if (!std::filesystem::is_regular_file(state.source, none)) return; // a built-in one
@@ -126,6 +129,13 @@ void SessionLink::rememberScene() {
              (more > 0 ? " (" + std::to_string(more) + " more in the panel Scene)" : ""));
 }
 
+// With a mark while there are edits that are not saved.
+void SessionLink::showTitle() {
+    if (!gui_.state.scene) return;
+    const std::string title = gui_.state.scene->title + (gui_.editor.isDirty() ? "* - " : " - ") + options_.program;
+    if (std::exchange(title_, title) != title) gui_.window.setTitle(title);
+}
+
 // A scene file that has changed is read again, once it stays as it is for a moment: it may still be being written.
 void SessionLink::followFile() {
     constexpr double kSeconds = 0.5; // between two looks
@@ -133,7 +143,8 @@ void SessionLink::followFile() {
     sinceLook_ = {};
     const std::optional<app::FileFingerprint> mark = app::markOf(gui_.state.source);
     const bool isSettled = std::exchange(seenMark_, mark) == mark;
-    if (!mark || !isSettled || mark == gui_.state.sourceMark || mark == askedMark_) return;
+    if (!mark || !isSettled || mark == gui_.state.sourceMark || mark == askedMark_ || mark == gui_.editor.savedMark())
+        return;
     if (gui_.session.reopen(mark->file)) askedMark_ = mark; // once, also where it does not load
 }
 

@@ -29,6 +29,7 @@ class SessionLink {
 
   private:
     void rememberScene();
+    void showTitle();
     void followExposure();
     void followFile();
 
@@ -38,10 +39,12 @@ class SessionLink {
     std::optional<app::FileFingerprint> seenMark_,
         askedMark_; // of the scene's file: at the last look; when it was read again
     app::Stopwatch sinceLook_;
+    std::string title_;     // of the window
     std::string reference_; // to be loaded when there is something to compare with; empty: none or done
 
     std::uint64_t sceneSerial_ = 0, pictureSerial_ = 0, errorSerial_ = 0, messageSerial_ = 0, focusSerial_ = 0;
-    std::uint64_t engineFailures_ = 0, sceneLoads_ = 0, sceneFailures_ = 0;
+    std::uint64_t engineFailures_ = 0, sceneLoads_ = 0, sceneFailures_ = 0, sceneReads_ = 0;
+    std::string rememberedSource_;
 
     app::RenderRequest sentRequest_;
     app::EngineChoice sentEngine_;

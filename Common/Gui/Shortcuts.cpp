@@ -48,13 +48,57 @@ void walkPanels(Gui& gui) {
     gui.settings.showPanels = gui.focusPanels = true;
 }
 
+// What the keyboard is for while a tool moves an object. Whether it was for that.
+bool steerTool(Gui& gui, const InputEvent& press) {
+    if (!gui.editing.tool) return false;
+    if (press.code >= GLFW_KEY_X && press.code <= GLFW_KEY_Z) {
+        gui.editing.tool->constrain(press.code - GLFW_KEY_X);
+        gui.editing.isToolStale = true;
+        return true;
+    }
+    const bool isConfirmed = press.code == GLFW_KEY_ENTER || press.code == GLFW_KEY_KP_ENTER;
+    if (isConfirmed || press.code == GLFW_KEY_ESCAPE) endTool(gui, isConfirmed);
+    return isConfirmed || press.code == GLFW_KEY_ESCAPE;
+}
+
+// Keys that concern what is selected, where something is. Whether it was one of them.
+bool editByKey(Gui& gui, const InputEvent& press) {
+    using Kind = app::ObjectTool::Kind;
+    const bool isPlain = (press.modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT)) == 0;
+    if (!gui.editor.selection() || ImGui::GetIO().WantTextInput || gui.browser.isOpen()) return false;
+    if (steerTool(gui, press)) return true;
+    const bool isDuplicate = press.code == GLFW_KEY_D && (press.modifiers & GLFW_MOD_SHIFT) != 0;
+    if (!isPlain) return false;
+    if (isDuplicate) return duplicateSelection(gui), true;
+    switch (press.code) {
+        case GLFW_KEY_G:
+            return beginTool(gui, Kind::Move), true;
+        case GLFW_KEY_R:
+            return beginTool(gui, Kind::Turn), true;
+        case GLFW_KEY_S:
+            return beginTool(gui, Kind::Scale), true;
+        case GLFW_KEY_F:
+            return frameSelection(gui), true;
+        case GLFW_KEY_DELETE:
+            return deleteSelection(gui), true;
+        default:
+            return false;
+    }
+}
+
+// One thing at a time: what is open goes first.
+void leave(Gui& gui) {
+    if (!gui.showHelp && !gui.showErrors && !gui.showScenes && !ImGui::GetIO().WantTextInput) deselect(gui);
+    gui.showHelp = gui.showErrors = gui.showScenes = false;
+}
+
 void toggle(bool& value) {
     value = !value;
 }
 
 constexpr Shortcut kShortcuts[] = {
     {GLFW_KEY_F1, When::Always, [](Gui& gui) { toggle(gui.showHelp); }},
-    {GLFW_KEY_ESCAPE, When::Always, [](Gui& gui) { gui.showHelp = gui.showErrors = gui.showScenes = false; }},
+    {GLFW_KEY_ESCAPE, When::Always, leave},
     {GLFW_KEY_F2, When::Always, [](Gui& gui) { gui.toggleStatistics(); }},
     {GLFW_KEY_F3, When::Always, [](Gui& gui) { toggle(gui.settings.showComparison); }},
     {GLFW_KEY_F4, When::Always, [](Gui& gui) { toggle(gui.settings.showPanels); }},
@@ -62,7 +106,10 @@ constexpr Shortcut kShortcuts[] = {
     {GLFW_KEY_F12, When::Always, [](Gui& gui) { gui.saveRequested = true; }},
     {GLFW_KEY_S, When::CtrlShift, [](Gui& gui) { gui.browse(BrowseFor::Picture); }},
     {GLFW_KEY_S, When::Control, [](Gui& gui) { gui.saveRequested = true; }},
-    {GLFW_KEY_Q, When::Control, [](Gui& gui) { gui.window.close(); }},
+    {GLFW_KEY_Z, When::CtrlShift, redoEdit},
+    {GLFW_KEY_Z, When::Control, undoEdit},
+    {GLFW_KEY_Y, When::Control, redoEdit},
+    {GLFW_KEY_Q, When::Control, [](Gui& gui) { gui.close(); }},
     {GLFW_KEY_O, When::Control, [](Gui& gui) { gui.browse(BrowseFor::Scene); }},
     {GLFW_KEY_R, When::Control, [](Gui& gui) { gui.session.reset(); }},
     {GLFW_KEY_EQUAL, When::Control, [](Gui& gui) { gui.scaleInterface(kScaleStep); }},
@@ -139,6 +186,7 @@ bool isKeyPress(const InputEvent& event) {
 void obeyKey(Gui& gui, const InputEvent& press) {
     const bool isBrowsing = gui.browser.isOpen(); // what is typed is for its field
     if (isBrowsing && browseBy(gui.browser, press)) return;
+    if (editByKey(gui, press)) return;
     for (const Shortcut& shortcut : kShortcuts) {
         if (shortcut.key != press.code || !applies(shortcut, press)) continue;
         if (isBrowsing && shortcut.when == When::Plain) return;
@@ -154,6 +202,7 @@ void obeyKey(Gui& gui, const InputEvent& press) {
 
 bool fly(Gui& gui, std::span<const InputEvent> input, double seconds) {
     if (ImGui::GetIO().WantTextInput || gui.browser.isOpen() || !gui.state.scene) return false;
+    if (gui.editing.tool || gui.editing.whenSaved) return false; // keys are for these
     const Window& window = gui.window;
     const bool control = window.isDown(GLFW_KEY_LEFT_CONTROL) || window.isDown(GLFW_KEY_RIGHT_CONTROL);
     const bool shift = window.isDown(GLFW_KEY_LEFT_SHIFT) || window.isDown(GLFW_KEY_RIGHT_SHIFT);
@@ -167,9 +216,12 @@ bool fly(Gui& gui, std::span<const InputEvent> input, double seconds) {
     const auto axis = [&isPressed](int positive, int negative) {
         return (isPressed(positive) ? 1.0 : 0.0) - (isPressed(negative) ? 1.0 : 0.0);
     };
+    if (gui.editor.selection() && shift && isPressed(GLFW_KEY_D)) return false;
     const double right = axis(GLFW_KEY_D, GLFW_KEY_A);
     const double up = axis(GLFW_KEY_E, GLFW_KEY_Q);
-    const double forward = axis(GLFW_KEY_W, GLFW_KEY_S);
+    // What is selected is scaled by S, and duplicated by Shift and D.
+    const bool isEditing = gui.editor.selection().has_value();
+    const double forward = isEditing ? axis(GLFW_KEY_W, GLFW_KEY_UNKNOWN) : axis(GLFW_KEY_W, GLFW_KEY_S);
     if (control && (isPressed(GLFW_KEY_S) || isPressed(GLFW_KEY_Q))) return false; // save, quit
     if (right == 0 && up == 0 && forward == 0) return false;
     const double pace = shift ? kFast : control ? kSlow : 1;

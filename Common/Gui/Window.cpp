@@ -157,6 +157,9 @@ bool Window::shouldClose() const {
 void Window::close() {
     glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
+void Window::stayOpen() {
+    glfwSetWindowShouldClose(window_, GLFW_FALSE);
+}
 void Window::hide() {
     glfwHideWindow(window_);
 }

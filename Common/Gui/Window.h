@@ -37,6 +37,7 @@ class Window {
 
     bool shouldClose() const;
     void close();
+    void stayOpen(); // after all, though it should close
     void hide();
     void setTitle(const std::string& title);
     // Handles what has happened; waits for it at most this long.

@@ -28,6 +28,7 @@ constexpr HelpLine kLeft[] = {
     {"Ctrl+O", "open a file; or drop it here"},
     {"F12, Ctrl+S", "save PNG and EXR"},
     {"Ctrl+Shift+S", "save as"},
+    {"Ctrl+Z, Ctrl+Y", "undo, redo an edit of the scene"},
     {nullptr, "Window"},
     {"F1", "this help"},
     {"F2, F3, F4", "statistics, comparison, panels"},
@@ -55,7 +56,12 @@ constexpr HelpLine kRight[] = {
     {nullptr, "Picture"},
     {"Wheel", "zoom"},
     {"Ctrl + right drag", "move"},
-    {"F", "fit"},
+    {"F", "fit, or frame the selected object"},
+    {nullptr, "Objects"},
+    {"Click, Escape", "select, deselect"},
+    {"G, R, S", "move, turn, scale the selected one"},
+    {"X, Y, Z", "along or about that axis"},
+    {"Shift+D, Delete", "duplicate, delete"},
 };
 
 constexpr float kMinLetters = 0.6f;

@@ -19,6 +19,7 @@ namespace rt::gui {
     PANEL(File, "file", "File", Side, false, settings.showPanels) \
     PANEL(Statistics, "statistics", "Statistics", Side, false, settings.showPanels && settings.showStatistics) \
     PANEL(Settings, "settings", "Settings", Side, false, settings.showPanels) \
+    PANEL(Objects, "objects", "Objects", Side, false, settings.showPanels) \
     PANEL(Comparison, "comparison", "Comparison", Bottom, true, settings.showComparison)
 // clang-format on
 

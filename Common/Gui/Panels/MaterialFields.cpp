@@ -1,0 +1,159 @@
+// The material of what is selected: its fields follow from the table of materials.
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "Common/Gui/Panels/ObjectFields.h"
+#include "Common/Gui/Widgets.h"
+#include "Common/Scene/Edit/EditCheck.h"
+#include "Common/Scene/Json/PrincipledType.h"
+#include "Common/Scene/MaterialTypes.h"
+#include "Common/Scene/UniqueNames.h"
+
+namespace rt::gui {
+namespace {
+
+// "base_color" as people read it: "Base color".
+std::string titled(const char* name) {
+    std::string title = name;
+    std::replace(title.begin(), title.end(), '_', ' ');
+    if (!title.empty() && title.front() >= 'a' && title.front() <= 'z') title.front() -= 'a' - 'A';
+    return title;
+}
+
+bool colorField(const std::string& label, const char* help, scene::ColorOrTexture& source) {
+    if (auto* color = std::get_if<glm::dvec3>(&source)) return inputColor(label.c_str(), help, *color);
+    row(label.c_str(), help);
+    ImGui::TextDisabled("texture %s", std::get<std::string>(source).c_str());
+    return false;
+}
+
+bool numberField(const std::string& label, const char* help, double& value, double minimum, double maximum) {
+    constexpr double kLongest = 1e3; // of a slider: a field of text for what has no end
+    if (maximum - minimum > kLongest) return inputReal(label.c_str(), help, value, minimum, maximum, "%.5g");
+    return sliderReal(label.c_str(), help, value, minimum, maximum, "%.3f");
+}
+
+// Of one parameter of a principled surface, whatever it is.
+struct PrincipledField {
+    const scene::SceneParameter& parameter;
+    const std::string label = titled(parameter.name);
+    const char* const help = parameter.help[0] != '\0' ? parameter.help : nullptr;
+
+    bool operator()(scene::NumberOrTexture& value) const {
+        if (value.texture.empty()) return numberField(label, help, value.factor, 0, 1);
+        row(label.c_str(), help);
+        ImGui::TextDisabled("texture %s", value.texture.c_str());
+        return false;
+    }
+    bool operator()(scene::ColorOrTexture& value) const { return colorField(label, help, value); }
+    bool operator()(glm::dvec3& value) const { return inputColor(label.c_str(), help, value); }
+    bool operator()(double& value) const {
+        const double maximum = value <= 4 ? std::min(parameter.maximum, 4.0) : parameter.maximum;
+        return numberField(label, help, value, std::max(parameter.minimum, -4.0), maximum);
+    }
+    bool operator()(bool& value) const { return checkbox(label.c_str(), help, value); }
+    bool operator()(std::string&) const { return false; }           // names of textures
+    bool operator()(std::optional<double>&) const { return false; } // what is mostly left out
+};
+
+bool drawNumbers(scene::MaterialDesc& material) {
+    bool changed = false;
+    const scene::MaterialType& type = scene::materialType(material.kind);
+    if (const scene::MaterialParameter* color = colorOf(type))
+        changed |= colorField(titled(color->name), color->help[0] != '\0' ? color->help : nullptr, material.albedo);
+    forEachNumber(type, [&](const scene::MaterialParameter& parameter, std::size_t i) {
+        double value = material.parameters[i].value_or(parameter.usual);
+        const char* help = parameter.help[0] != '\0' ? parameter.help : nullptr;
+        if (!numberField(titled(parameter.name), help, value, parameter.minimum, parameter.maximum)) return;
+        material.parameters[i] = value;
+        changed = true;
+    });
+    if (material.kind == scene::MaterialKind::Principled)
+        scene::forEachPrincipledParameter([&](const scene::SceneParameter& parameter, auto member) {
+            changed |= PrincipledField{parameter}(material.principled.*member);
+        });
+    changed |= inputLight("Emission", "Radiance that the surface gives off", material.emission);
+    return changed;
+}
+
+bool drawKind(scene::MaterialDesc& material) {
+    row("Kind", "What the surface does with light");
+    bool changed = false;
+    if (!ImGui::BeginCombo("##kind", titled(scene::materialType(material.kind).name).c_str())) return false;
+    for (const scene::MaterialType& type : scene::materialTypes()) {
+        const bool isSelected = type.kind == material.kind;
+        if (ImGui::Selectable(titled(type.name).c_str(), isSelected) && !isSelected) {
+            material.kind = type.kind;
+            material.parameters = {}; // the usual ones of its kind
+            // What does not scatter is there to emit.
+            if (!type.scatters && material.emission == glm::dvec3(0)) material.emission = glm::dvec3(4);
+            changed = true;
+        }
+        if (type.help[0] != '\0') tooltip(type.help);
+    }
+    ImGui::EndCombo();
+    return changed;
+}
+
+void drawName(Gui& gui, const scene::ObjectPath& path, const std::string& current) {
+    row("Material", "That of all surfaces which name it");
+    if (!ImGui::BeginCombo("##name", current.empty() ? "its own" : current.c_str())) return;
+    for (const auto& [name, material] : gui.editor.document()->scene().materials) {
+        const bool isSelected = name == current;
+        if (!ImGui::Selectable(name.c_str(), isSelected) || isSelected) continue;
+        editScene(gui, "Assign material", {scene::SetMaterialOf{path, name}}, false);
+        break; // the names may be others by now
+    }
+    ImGui::EndCombo();
+}
+
+std::string newName(const scene::SceneDesc& scene, const std::string& like) {
+    for (int number = 2;; ++number) {
+        std::string name = like + " " + std::to_string(number);
+        if (!scene.materials.contains(name)) return name;
+    }
+}
+
+// Counted once for each change of the scene: it may be large.
+std::size_t usesOf(Gui& gui, const std::string& name) {
+    SceneEditing& editing = gui.editing;
+    const scene::SceneDocument& document = *gui.editor.document();
+    if (std::exchange(editing.materialCounted, name) != name ||
+        std::exchange(editing.countRevision, document.revision()) != document.revision())
+        editing.materialUses = scene::materialUses(document.scene(), name);
+    return editing.materialUses;
+}
+
+void drawUnique(Gui& gui, const scene::ObjectPath& path, const std::string& name) {
+    const std::size_t uses = usesOf(gui, name);
+    if (uses > 1) note("Shared by " + std::to_string(uses) + " objects, which change with it");
+    if (!button("Make unique", "Gives this object a material of its own, like the one it has",
+                {uses > 1, "no other object has this material"}))
+        return;
+    const scene::SceneDesc& scene = gui.editor.document()->scene();
+    const std::string own = newName(scene, name);
+    editScene(gui, "Make unique", {scene::SetMaterial{own, scene.materials.at(name)}, scene::SetMaterialOf{path, own}},
+              false);
+}
+
+} // namespace
+
+void drawMaterialFields(Gui& gui, const scene::ObjectPath& path) {
+    const scene::SceneDesc& scene = gui.editor.document()->scene();
+    const std::string* found = materialNameOf(*findObject(scene, path));
+    if (found == nullptr) return;
+    const std::string name = *found; // edits may move the object
+    ImGui::PushID("material");
+    drawName(gui, path, name);
+    if (const auto at = scene.materials.find(name); at != scene.materials.end()) {
+        drawUnique(gui, path, name);
+        scene::MaterialDesc material = scene.materials.at(name);
+        const bool isOther = drawKind(material);
+        if (drawNumbers(material) || isOther)
+            editScene(gui, "Material " + name, {scene::SetMaterial{name, material}}, !isOther);
+    }
+    ImGui::PopID();
+}
+
+} // namespace rt::gui

@@ -1,0 +1,184 @@
+#include "Common/Gui/Panels/ObjectFields.h"
+
+#include <algorithm>
+#include <string>
+
+#include "Common/Gui/Widgets.h"
+
+namespace rt::gui {
+namespace {
+
+constexpr double kLargestNumber = 1e9, kSmallestSize = 1e-9; // of scene files
+
+bool vectorField(const char* label, const char* tip, glm::dvec3& vector) {
+    double values[3] = {vector.x, vector.y, vector.z};
+    if (!inputVector(label, tip, values)) return false;
+    vector = {values[0], values[1], values[2]};
+    return true;
+}
+
+bool sizeField(const char* label, const char* tip, double& size) {
+    return inputReal(label, tip, size, kSmallestSize, kLargestNumber, "%.5g");
+}
+
+bool lightField(bool& isLight) {
+    return checkbox("In light list", "Whether what it emits is aimed at; it emits either way", isLight);
+}
+
+// Fields of what each kind of object is described by. All return whether something was changed.
+struct Fields {
+    bool operator()(scene::SphereDesc& sphere) const {
+        bool changed = vectorField("Center", nullptr, sphere.center);
+        changed |= sizeField("Radius", nullptr, sphere.radius);
+        if (sphere.centerEnd) changed |= vectorField("Center at 1", "Where it is at time 1", *sphere.centerEnd);
+        return lightField(sphere.light) || changed;
+    }
+    bool operator()(scene::QuadDesc& quad) const {
+        bool changed = vectorField("Corner", nullptr, quad.corner);
+        changed |= vectorField("Edge U", "From the corner; U x V points to the front", quad.edgeU);
+        changed |= vectorField("Edge V", nullptr, quad.edgeV);
+        return lightField(quad.light) || changed;
+    }
+    bool operator()(scene::BoxDesc& box) const {
+        bool changed = vectorField("Least corner", nullptr, box.min);
+        changed |= vectorField("Largest corner", nullptr, box.max);
+        return lightField(box.light) || changed;
+    }
+    bool operator()(scene::DiskDesc& disk) const {
+        bool changed = vectorField("Center", nullptr, disk.center);
+        changed |= vectorField("Normal", "Points to the front; of any length", disk.normal);
+        changed |= sizeField("Radius", nullptr, disk.radius);
+        changed |= inputReal("Hole", "Radius of the hole", disk.innerRadius, 0, kLargestNumber, "%.5g");
+        return lightField(disk.light) || changed;
+    }
+    bool operator()(scene::CylinderDesc& cylinder) const {
+        bool changed = vectorField("Base", nullptr, cylinder.base);
+        changed |= vectorField("Top", nullptr, cylinder.top);
+        changed |= sizeField("Radius", nullptr, cylinder.radius);
+        return lightField(cylinder.light) || changed;
+    }
+    bool operator()(scene::MediumDesc& medium) const {
+        bool changed = sizeField("Density", "Extinction per unit of length", medium.density);
+        if (auto* color = std::get_if<glm::dvec3>(&medium.albedo))
+            changed |= inputColor("Albedo", "What is scattered of light that is stopped", *color);
+        if (auto* sphere = std::get_if<scene::SphereBoundary>(&medium.boundary)) {
+            changed |= vectorField("Center", nullptr, sphere->center);
+            return sizeField("Radius", nullptr, sphere->radius) || changed;
+        }
+        auto& box = std::get<scene::BoxBoundary>(medium.boundary);
+        changed |= vectorField("Least corner", nullptr, box.min);
+        return vectorField("Largest corner", nullptr, box.max) || changed;
+    }
+    bool operator()(scene::PointLightDesc& light) const {
+        const bool changed = vectorField("Position", nullptr, light.position);
+        return inputLight("Intensity", "Irradiance at a distance of 1", light.intensity) || changed;
+    }
+    bool operator()(scene::SpotLightDesc& light) const {
+        bool changed = vectorField("Position", nullptr, light.position);
+        changed |= vectorField("Direction", "In which it shines", light.direction);
+        changed |= inputLight("Intensity", "Irradiance at a distance of 1", light.intensity);
+        changed |= sliderReal("Inner angle", "Full up to it, in degrees", light.innerAngle, 0,
+                              std::max(0.0, 0.99 * light.outerAngle), "%.1f");
+        return sliderReal("Outer angle", "Dark from it on, in degrees", light.outerAngle,
+                          std::max(0.1, 1.01 * light.innerAngle), 90, "%.1f") ||
+               changed;
+    }
+    bool operator()(scene::DirectionalLightDesc& light) const {
+        const bool changed = vectorField("Direction", "In which it shines", light.direction);
+        return inputLight("Irradiance", "Of a surface across the direction", light.irradiance) || changed;
+    }
+    template <typename Other>
+    bool operator()(Other&) const {
+        return false;
+    }
+};
+
+// Whether what describes it is small enough to be copied each frame.
+bool isSmall(const scene::ObjectDesc& object) {
+    return !std::holds_alternative<scene::MeshDesc>(object.shape) &&
+           !std::holds_alternative<scene::SphereSetDesc>(object.shape) && transformOf(object) == nullptr;
+}
+
+bool stepField(std::variant<scene::Translate, scene::Rotate, scene::Scale, scene::Matrix>& step) {
+    if (auto* translate = std::get_if<scene::Translate>(&step)) return vectorField("Move", nullptr, translate->offset);
+    if (auto* scale = std::get_if<scene::Scale>(&step)) return vectorField("Scale", nullptr, scale->factors);
+    if (auto* rotate = std::get_if<scene::Rotate>(&step)) {
+        const bool changed = vectorField("Axis", "About which it is turned", rotate->axis);
+        return inputReal("Degrees", "Counter-clockwise as seen from the axis' end", rotate->degrees, -kLargestNumber,
+                         kLargestNumber, "%.5g") ||
+               changed;
+    }
+    row("Matrix", "Of a move within a group that is turned or scaled, or of a file");
+    ImGui::TextDisabled("3 x 4 numbers");
+    return false;
+}
+
+// Steps in the order in which they are applied.
+void drawTransform(Gui& gui, const scene::ObjectPath& path, scene::Transform transform) {
+    bool changed = false;
+    for (std::size_t i = 0; i < transform.size(); ++i) {
+        ImGui::PushID(static_cast<int>(i));
+        changed |= stepField(transform[i]);
+        ImGui::PopID();
+    }
+    if (transform.empty()) note("It stands as it is described: G, R and S move it");
+    if (changed) editScene(gui, "Transform", {scene::SetTransform{path, std::move(transform)}});
+}
+
+} // namespace
+
+bool inputColor(const char* label, const char* tip, glm::dvec3& color) {
+    row(label, tip);
+    ImGui::PushID(label);
+    float values[3] = {static_cast<float>(color.x), static_cast<float>(color.y), static_cast<float>(color.z)};
+    constexpr ImGuiColorEditFlags kFlags = ImGuiColorEditFlags_Float | ImGuiColorEditFlags_PickerHueWheel;
+    const bool changed = ImGui::ColorEdit3("##value", values, kFlags);
+    ImGui::PopID();
+    if (!changed) return false;
+    for (int i = 0; i < 3; ++i) color[i] = std::clamp(static_cast<double>(values[i]), 0.0, 1.0);
+    return true;
+}
+
+bool inputLight(const char* label, const char* tip, glm::dvec3& color) {
+    double strength = std::max({color.x, color.y, color.z});
+    glm::dvec3 hue = strength > 0 ? color / strength : glm::dvec3(1);
+    const bool changed = inputReal(label, tip, strength, 0, kLargestNumber, "%.5g");
+    const bool isTinted = inputColor("Color", "Of the light", hue);
+    if (changed || isTinted) color = strength * hue;
+    return changed || isTinted;
+}
+
+void drawObjectFields(Gui& gui, const scene::ObjectPath& path) {
+    const scene::ObjectDesc& object = *findObject(gui.editor.document()->scene(), path);
+    if (const scene::Transform* transform = transformOf(object)) return drawTransform(gui, path, *transform);
+    if (!isSmall(object)) return note("G, R and S move it; it gets a group for that");
+    scene::ObjectDesc changed = object;
+    if (std::visit(Fields{}, changed.shape))
+        editScene(gui, std::string(app::kindName(object)), {scene::SetObject{path, std::move(changed)}});
+}
+
+void drawSkyFields(Gui& gui) {
+    scene::Background sky = gui.editor.document()->scene().background;
+    bool changed = false;
+    if (auto* constant = std::get_if<scene::ConstantBackground>(&sky)) {
+        changed = inputLight("Sky", "Radiance from everywhere", constant->color);
+    } else if (auto* gradient = std::get_if<scene::GradientBackground>(&sky)) {
+        changed = inputColor("Zenith", "Radiance from above", gradient->top);
+        changed |= inputColor("Nadir", "Radiance from below", gradient->bottom);
+    } else {
+        auto& image = std::get<scene::ImageBackground>(sky);
+        changed = inputLight("Brightness", "The image is so many times as bright", image.factor);
+        changed |= sliderReal("Rotation", "About +Y, in degrees", image.rotation, -180, 180, "%.1f");
+    }
+    const bool isConstant = std::holds_alternative<scene::ConstantBackground>(sky);
+    if (button(isConstant ? "Gradient sky" : "Plain sky", "In place of the sky that there is", true)) {
+        if (isConstant)
+            sky = scene::GradientBackground{};
+        else
+            sky = scene::ConstantBackground{glm::dvec3(0.5)};
+        changed = true;
+    }
+    if (changed) editScene(gui, "Sky", {scene::SetBackground{sky}});
+}
+
+} // namespace rt::gui

@@ -1,0 +1,15 @@
+// What the panel of objects says of one of them, to be changed there.
+#pragma once
+#include "Common/Gui/Gui.h"
+
+namespace rt::gui {
+
+void drawObjectFields(Gui& gui, const scene::ObjectPath& path); // that exists
+void drawMaterialFields(Gui& gui, const scene::ObjectPath& path);
+void drawSkyFields(Gui& gui);
+
+// A colour of linear components; one beyond 1 is divided by its largest, which is a field of its own.
+bool inputColor(const char* label, const char* tip, glm::dvec3& color);
+bool inputLight(const char* label, const char* tip, glm::dvec3& color);
+
+} // namespace rt::gui
