@@ -1,5 +1,6 @@
 // The scene of a window as it is edited: its description with its history, what is selected, and the files that it is
-// read from and saved to. All of it is of the window's thread; the session gets each edit, for a description of its own.
+// read from and saved to. All of it is of the window's thread; the session gets each edit, for a description of its
+// own.
 #pragma once
 #include <atomic>
 #include <cstdint>

@@ -43,7 +43,8 @@ class SceneLoader {
     void startEditing(scene::SceneDesc scene);
     void stopEditing(); // forgets it
     // The same edits that the window's own description has got; what they make is compiled and handed over. What is
-    // being compiled of the edits before is called off, unless these are of a gesture: a drag would never show anything.
+    // being compiled of the edits before is called off, unless these are of a gesture: a drag would never show
+    // anything.
     // Returns SceneRequest::edits of what they make.
     std::uint64_t edit(std::vector<scene::SceneEdit> edits, bool isGesture);
     // Which file the edited scene is in by now.

@@ -8,7 +8,6 @@
 #include "Common/Scene/Edit/EditCheck.h"
 #include "Common/Scene/Json/PrincipledType.h"
 #include "Common/Scene/MaterialTypes.h"
-#include "Common/Scene/UniqueNames.h"
 
 namespace rt::gui {
 namespace {

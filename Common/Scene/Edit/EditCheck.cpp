@@ -101,8 +101,8 @@ bool reaches(const SceneDesc& scene, const std::string& from, const std::string&
 
 // ---- values --------------------------------------------------------------------------------------------------------
 
-// By the reader of scene files, in a scene of nothing else. `theirs`: the place in that scene, which `place` replaces in
-// what is said.
+// By the reader of scene files, in a scene of nothing else. `theirs`: the place in that scene, which `place` replaces
+// in what is said.
 void checkByReader(const SceneDesc& small, const std::string& theirs, const std::string& place) {
     static const std::string kFile = "edit";
     try {

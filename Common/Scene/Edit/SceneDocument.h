@@ -37,7 +37,7 @@ class SceneDocument {
     std::uint64_t revision() const { return revision_; }   // grows with each change
     std::uint64_t structure() const { return structure_; } // the latest that changed which objects there are
 
-    // What has been done to the scene since the last call, in order: a copy of the scene that gets the same is the same.
+    // What has been done to the scene since the last call, in order: a copy that gets the same is the same scene.
     std::vector<SceneEdit> takeJournal() { return std::exchange(journal_, {}); }
 
   private:
