@@ -8,6 +8,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
+#include "Common/Core/OpenFile.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/SystemMemory.h"
 
@@ -55,23 +56,41 @@ bool mayRead(const std::filesystem::path& path) {
     return confinement == nullptr || confinement->allows(path);
 }
 
-std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t limit) {
-    const auto fail = [&path](const std::string& reason) {
-        throw InputError("cannot read " + path.string() + ": " + reason);
-    };
+namespace {
+
+[[noreturn]] void failToRead(const std::filesystem::path& path, const std::string& reason) {
+    throw InputError("cannot read " + path.string() + ": " + reason);
+}
+
+// Also how many bytes it says to hold.
+std::ifstream openOfSize(const std::filesystem::path& path, std::uint64_t limit, std::uintmax_t& size) {
+    const auto fail = [&path](const std::string& reason) { failToRead(path, reason); };
     if (!mayRead(path)) fail("--assets-below does not allow it");
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) fail(error ? error.message() : std::generic_category().message(ENOENT));
     if (std::filesystem::is_directory(status)) fail(std::generic_category().message(EISDIR));
     if (!std::filesystem::is_regular_file(status)) fail("it is not a regular file"); // it might wait for ever
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    size = std::filesystem::file_size(path, error);
     if (error) fail(error.message());
     if (size > limit) fail("it is larger than " + std::to_string(limit) + " bytes");
     errno = 0;
     std::ifstream in(path, std::ios::binary);
     if (!in) fail(errno == 0 ? "open failed" : std::generic_category().message(errno));
+    return in;
+}
 
+} // namespace
+
+std::ifstream openFile(const std::filesystem::path& path, std::uint64_t limit) {
+    std::uintmax_t size = 0;
+    return openOfSize(path, limit, size);
+}
+
+std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t limit) {
+    const auto fail = [&path](const std::string& reason) { failToRead(path, reason); };
+    std::uintmax_t size = 0;
+    std::ifstream in = openOfSize(path, limit, size);
     std::vector<std::byte> content;
     try {
         resizeLarge(content, static_cast<std::size_t>(size));

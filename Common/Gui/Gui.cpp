@@ -195,7 +195,7 @@ void Gui::browse(BrowseFor what) {
     std::error_code none;
     switch (what) {
         case BrowseFor::Scene:
-            request = {"Open a scene", "Open", {".json", ".obj", ".gltf", ".glb"}, {}, ""};
+            request = {"Open a scene", "Open", {".json", ".obj", ".gltf", ".glb", ".pbrt", ".gz"}, {}, ""};
             if (fs::is_regular_file(state.source, none)) {
                 request.folder = folderOf(state.source);
             } else if (const auto assets = assetFolders(); !assets.empty()) {

@@ -23,7 +23,7 @@ ValueForm formOf(const std::string& value) {
     ValueForm form;
     if (value == "SCENE") {
         form.kind = ValueForm::Kind::Scene;
-        form.endings = {".json", ".obj", ".gltf", ".glb"};
+        form.endings = {".json", ".obj", ".gltf", ".glb", ".pbrt", ".pbrt.gz"};
     } else if (value == "DIR") {
         form.kind = ValueForm::Kind::Folder;
     } else if (value == "F" || value.starts_with("F.")) {

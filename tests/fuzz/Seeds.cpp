@@ -62,6 +62,25 @@ void writeMeshes(const Seeds& seeds) {
     seeds.write("obj", "plain", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
 }
 
+// The scenes of tests, their parts and a mesh of a file of its own, which the target writes beside each input.
+void writePbrt(const Seeds& seeds) {
+    std::set<std::string> words;
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(RT_TEST_DATA_DIR) / "pbrt")) {
+        if (!entry.is_regular_file()) continue;
+        std::ifstream file(entry.path());
+        const std::string text(std::istreambuf_iterator<char>(file), {});
+        const bool isMesh = entry.path().extension() == ".ply";
+        seeds.write("pbrt", entry.path().stem().string(), isMesh ? std::string(1, '\0') + text : text);
+        std::istringstream in(text);
+        for (std::string word; in >> word;)
+            if (word.find_first_of("\"\\#") == word.npos && word.size() < 30) words.insert(word);
+    }
+    for (const char* word :
+         {"[", "]", "\\\"float alpha\\\"", "\\\"a.ply\\\"", "binary_little_endian", "1e300", "-1", "2147483647"})
+        words.insert(word);
+    seeds.writeWords("pbrt", words);
+}
+
 std::string base64(const std::string& bytes) {
     const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
@@ -231,6 +250,7 @@ int main(int argc, char** argv) {
     return rt::test::writeSeeds(argc, argv, [](Seeds& seeds) {
         writeScenes(seeds);
         writeMeshes(seeds);
+        writePbrt(seeds);
         writeGltf(seeds);
         writeTexts(seeds);
     });

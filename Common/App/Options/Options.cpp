@@ -46,10 +46,11 @@ void addScene(FlagSet& flags, ParsedFlags& parsed) {
     Options& options = parsed.options;
     flags.group("Scene");
     flags
-        .add("--scene", "SCENE", "id of --list-scenes, a .json scene, an .obj, .gltf or .glb file",
+        .add("--scene", "SCENE", "id of --list-scenes, a .json scene, an .obj, .gltf, .glb or .pbrt file",
              [&options](const std::string& flag, const std::string& text) {
                  if (text.empty())
-                     refuseValue(flag, text, "an id of --list-scenes, a .json scene, an .obj, .gltf or .glb file");
+                     refuseValue(flag, text,
+                                 "an id of --list-scenes, a .json scene, an .obj, .gltf, .glb or .pbrt file");
                  options.scene = text;
              })
         ->default_str(options.scene);

@@ -24,6 +24,7 @@
 #include "Common/Scene/Gltf/GltfLoader.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "Common/Scene/Obj/ObjLoader.h"
+#include "Common/Scene/Pbrt/PbrtLoader.h"
 #include "Common/Scene/Studio.h"
 
 namespace rt::app {
@@ -82,25 +83,31 @@ std::shared_ptr<const scene::CompiledScene> compileWith(const scene::SceneDesc& 
     return scene::compileScene(desc, options);
 }
 
+// The ending of a file, in lower case, with what is packed before ".gz".
+std::string kindOf(const std::filesystem::path& path) {
+    std::string kind = path.extension().string();
+    const auto lower = [](unsigned char c) { return static_cast<char>(std::tolower(c)); };
+    std::transform(kind.begin(), kind.end(), kind.begin(), lower);
+    return kind == ".gz" ? kindOf(path.stem()) + kind : kind;
+}
+
 } // namespace
 
 scene::SceneDesc loadScene(const std::string& source) {
     std::filesystem::path path(source);
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = kindOf(path);
     using Load = scene::SceneDesc (*)(const std::filesystem::path&);
-    static const std::map<std::string, Load> loaders = {{".json", scene::loadSceneFile},
-                                                        {".obj", scene::loadObjScene},
-                                                        {".gltf", scene::loadGltfScene},
-                                                        {".glb", scene::loadGltfScene}};
+    static const std::map<std::string, Load> loaders = {
+        {".json", scene::loadSceneFile}, {".obj", scene::loadObjScene},   {".gltf", scene::loadGltfScene},
+        {".glb", scene::loadGltfScene},  {".pbrt", scene::loadPbrtScene}, {".pbrt.gz", scene::loadPbrtScene}};
     const auto loader = loaders.find(extension);
     if (loader == loaders.end()) return scene::findBuiltinScene(source);
     std::error_code none;
     if (path.is_relative() && !std::filesystem::exists(path, none)) path = findAsset("scenes" / path).value_or(path);
     scene::SceneDesc scene = loader->second(path);
-    // A scene file says what light there is.
-    if (extension != ".json") scene::addStudioIfUnlit(scene, scene::boundsOfMeshes(scene));
+    // Files of scenes, as those of models do not, say what light there is.
+    const bool isModel = extension == ".obj" || extension == ".gltf" || extension == ".glb";
+    if (isModel) scene::addStudioIfUnlit(scene, scene::boundsOfMeshes(scene));
     return scene;
 }
 

@@ -9,8 +9,8 @@
 
 namespace rt::app {
 
-// A .json scene file, an .obj, .gltf or .glb file, by a path of its own or within the assets' folder "scenes", or the
-// id of a built-in scene. A model that brings no light stands in a studio (Studio.h). Throws InputError.
+// A .json scene file, an .obj, .gltf, .glb or .pbrt file, by a path of its own or within the assets' folder "scenes", or
+// the id of a built-in scene. A model that brings no light stands in a studio (Studio.h). Throws InputError.
 scene::SceneDesc loadScene(const std::string& source);
 
 // With its textures; with generated ones in place of files that have a stand-in, where asked for. Throws InputError.

@@ -118,7 +118,7 @@ SceneDesc findBuiltinScene(const std::string& id) {
                                      [&](const BuiltinScene& scene) { return scene.id == name; });
     if (found == std::end(kScenes))
         throw InputError("scene \"" + id + "\": no such scene; nearest: " + nearestIds(name) +
-                         "; --list-scenes lists all, and .json, .obj, .gltf and .glb files are scenes too");
+                         "; --list-scenes lists all, and .json, .obj, .gltf, .glb and .pbrt files are scenes too");
     std::uint32_t count = found->defaultCount;
     if (colon != std::string::npos) {
         if (count == 0) throw InputError("scene \"" + id + "\": " + std::string(name) + " takes no count");

@@ -30,20 +30,11 @@
 #include "Common/Scene/Gltf/GltfSkin.h"
 #include "Common/Scene/Gltf/GltfValues.h"
 #include "Common/Scene/Json/JsonNode.h"
+#include "Common/Scene/Placing.h"
 
 namespace rt::scene {
 
 namespace {
-
-Transform toTransform(const Affine& map) {
-    Matrix matrix;
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column)
-            matrix.rows[static_cast<std::size_t>(4 * row + column)] = map.linear[column][row];
-        matrix.rows[static_cast<std::size_t>(4 * row + 3)] = map.offset[row];
-    }
-    return {matrix};
-}
 
 bool isIdentity(const Affine& map) {
     return map.linear == glm::dmat3(1) && map.offset == glm::dvec3(0);

@@ -8,6 +8,7 @@
 
 #include "Common/Core/Interruption.h"
 #include "Common/Scene/Json/JsonNode.h"
+#include "Common/Scene/Placing.h"
 
 namespace rt::scene {
 
@@ -27,14 +28,6 @@ glm::dvec4 vector4(const std::vector<double>& v) {
 
 std::string placeOfNode(std::size_t node) {
     return "/nodes/" + std::to_string(node);
-}
-
-bool isWithinLimits(const Affine& map) {
-    double largest = 0;
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k) largest += std::abs(map.linear[i][k]);
-    for (int k = 0; k < 3; ++k) largest += std::abs(map.offset[k]);
-    return largest <= kLargest;
 }
 
 Affine composed(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale) {

@@ -44,8 +44,6 @@ class GltfNodes {
 
 std::string placeOfNode(std::size_t node); // in the JSON
 
-bool isWithinLimits(const Affine& map); // kLargest, and finite
-
 // Scaled, turned by a quaternion whose length counts for nothing, moved.
 Affine composed(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale);
 
