@@ -1,10 +1,17 @@
 // Files of pbrt that are wrong end in one line that names file, line and value, and in little memory.
+#include <algorithm>
+#include <filesystem>
+#include <random>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Scene/Json/SceneJson.h"
+#include "tests/FileBytes.h"
 #include "tests/unit/PbrtFolder.h"
 
 namespace rt::scene {
@@ -139,6 +146,47 @@ TEST(PbrtMalformed, FewBytesAskForLittle) {
     for (int i = 1; i <= 70; ++i)
         folder.write("deep" + std::to_string(i) + ".pbrt", "Include \"deep" + std::to_string(i - 1) + ".pbrt\"");
     EXPECT_NE(errorOf(folder, "WorldBegin\nInclude \"deep70.pbrt\"").find("deeper than 64"), std::string::npos);
+}
+
+// Whatever the bytes are, a file is a scene that can be written and read again, or it is refused in one line.
+TEST(PbrtMalformed, ChangedFilesAreReadOrRefused) {
+    const test::PbrtFolder folder;
+    std::vector<std::string> seeds;
+    std::vector<std::string> words = {"[", "]", "\"", "-1", "0", "1e300", "1e-300", "2147483647", "#", "true"};
+    for (const auto& entry : std::filesystem::directory_iterator(RT_TEST_DATA_DIR "/pbrt")) {
+        if (!entry.is_regular_file()) continue;
+        seeds.push_back(test::bytesOfFile(entry.path()));
+        std::istringstream in(seeds.back());
+        for (std::string word; in >> word;) words.push_back(word);
+    }
+    std::sort(seeds.begin(), seeds.end()); // whatever order the folder has
+    std::sort(words.begin(), words.end());
+    std::mt19937 random(7);
+    const auto below = [&random](std::size_t count) { return random() % std::max<std::size_t>(count, 1); };
+    std::size_t accepted = 0;
+    for (int i = 0; i < 3000; ++i) {
+        std::string text = seeds[below(seeds.size())];
+        const bool isMesh = text.starts_with("ply");
+        for (std::size_t change = below(5); change < 5 && !text.empty(); ++change) {
+            const std::size_t at = below(text.size());
+            if (change == 0) text.erase(at, 1 + below(30));
+            if (change == 1) text[at] = static_cast<char>(below(256));
+            if (change > 1) text.insert(at, ' ' + words[below(words.size())] + ' ');
+        }
+        if (isMesh) folder.write("a.ply", text);
+        const std::string scene = isMesh ? "WorldBegin Shape \"plymesh\" \"string filename\" \"a.ply\"" : text;
+        SceneDesc read;
+        try {
+            read = folder.load(scene);
+        } catch (const InputError& error) {
+            ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+            continue;
+        }
+        ++accepted;
+        if (!read.textures.empty()) continue; // of images that are not there
+        ASSERT_NO_THROW(parseScene(toJson(read), "again.json", folder.path())) << text;
+    }
+    EXPECT_GT(accepted, 300u);
 }
 
 TEST(PbrtMalformed, FilesAreConfined) {

@@ -55,7 +55,7 @@ void PbrtLights::add(const std::string& kind, const PbrtParameters& parameters, 
     } else if (kind == "distant") {
         distant(parameters, toWorld);
     } else if (kind == "infinite") {
-        infinite(parameters, toWorld);
+        infinite(parameters);
     } else {
         parameters.fail("the light is unknown; known are " + std::string(kLights));
     }
@@ -125,22 +125,27 @@ void PbrtLights::distant(const PbrtParameters& parameters, const Affine& toWorld
     scene_.objects.push_back({light});
 }
 
-void PbrtLights::infinite(const PbrtParameters& parameters, const Affine& toWorld) {
-    if (parameters.has("portal")) notices_.add("portals of infinite lights are left out", parameters.place);
-    const std::string file = parameters.string("filename", "");
-    if (!file.empty()) return addImage(parameters, file, toWorld);
-    const double illuminance = parameters.number("illuminance", -1);
-    const glm::dvec3 light = color(parameters, "L") * (illuminance > 0 ? illuminance / kPi : 1);
-    if (auto* constant = std::get_if<ConstantBackground>(&scene_.background))
-        constant->color = bounded(constant->color + light);
-    else
-        notices_.add("of several infinite lights the one with an image counts alone", parameters.place);
+// Constant ones add up.
+void PbrtLights::addSky(const glm::dvec3& light) {
+    auto& sky = std::get<ConstantBackground>(scene_.background);
+    sky.color = bounded(sky.color + light);
 }
 
-void PbrtLights::addImage(const PbrtParameters& parameters, const std::string& file, const Affine& toWorld) {
-    (void)file, (void)toWorld;
-    for (const char* name : {"L", "scale", "illuminance"}) parameters.find(name);
-    notices_.add("infinite lights with an image are left out", parameters.place);
+void PbrtLights::infinite(const PbrtParameters& parameters) {
+    if (parameters.has("portal")) notices_.add("portals of infinite lights are left out", parameters.place);
+    const std::string file = parameters.string("filename", "");
+    if (!file.empty()) return addImage(parameters);
+    const double illuminance = parameters.number("illuminance", -1);
+    const glm::dvec3 light = color(parameters, "L") * (illuminance > 0 ? illuminance / kPi : 1);
+    addSky(light);
+}
+
+// As bright as an image of white.
+void PbrtLights::addImage(const PbrtParameters& parameters) {
+    if (parameters.number("illuminance", -1) > 0)
+        notices_.add("the illuminance of images is left out", parameters.place);
+    notices_.add("images of infinite lights are left out: they are white", parameters.place);
+    addSky(color(parameters, "L"));
 }
 
 void PbrtLights::addEmission(const PbrtParameters& parameters, const PbrtShape& shape, const Affine& toWorld,
