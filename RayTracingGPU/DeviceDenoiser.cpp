@@ -12,7 +12,6 @@
 
 #include "Common/Image/Denoise/DenoiseFilter.h"
 #include "Common/Image/Metrics.h"
-#include "Common/Shared/Denoise/DenoiseLive.h"
 #include "Common/Shared/Denoise/DenoiseMix.h"
 #include "Common/Vulkan/Barrier.h"
 #include "Common/Vulkan/Pipelines.h"
@@ -24,6 +23,7 @@ namespace {
 
 using shared::DenoiseLaunch;
 using shared::DepthLaunch;
+using shared::HistoryLaunch;
 using shared::kDenoiseBandwidths;
 using shared::LiveLaunch;
 
@@ -56,6 +56,10 @@ Shader shaderOf(DenoisePass pass) {
             return Shader::DenoiseMix;
         case DenoisePass::Blend:
             return Shader::DenoiseBlend;
+        case DenoisePass::History:
+            return Shader::DenoiseHistory;
+        case DenoisePass::HistoryMerge:
+            return Shader::DenoiseHistoryMerge;
         case DenoisePass::LivePrepare:
             return Shader::DenoiseLivePrepare;
         case DenoisePass::Live:
@@ -70,7 +74,8 @@ Shader shaderOf(DenoisePass pass) {
 
 DenoisePipelines::DenoisePipelines(vulkan::VulkanContext& context, vulkan::PipelineCache& cache)
     : context_(context), cache_(cache) {
-    constexpr std::size_t kBytes = std::max({sizeof(DenoiseLaunch), sizeof(LiveLaunch), sizeof(DepthLaunch)});
+    constexpr std::size_t kBytes =
+        std::max({sizeof(DenoiseLaunch), sizeof(HistoryLaunch), sizeof(LiveLaunch), sizeof(DepthLaunch)});
     const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, kBytes};
     layout_ = vulkan::makePipelineLayout(context.device(), push, VK_NULL_HANDLE, kWhat);
 }
@@ -263,39 +268,6 @@ bool DeviceDenoiser::run(std::uint64_t samplesOfHalf, std::uint32_t dependentSid
     return true;
 }
 
-// In one launch. Levels go to and fro between the memory of what candidates make of halves and that of halves.
-void DeviceDenoiser::runLive() {
-    passSeconds_ = {};
-    LiveLaunch launch{};
-    launch.halves = halves_.address();
-    launch.surfaces = surfaces_.address();
-    launch.features = features_.address();
-    launch.values = values_.address();
-    launch.radiance = filtered_.address();
-    launch.tones = filtered_.address() + 2 * pixels_ * kFourFloats;
-    launch.newRadiance = radiance_.address();
-    launch.newTones = guides_.address();
-    launch.width = width_;
-    launch.height = height_;
-    DenoiseLaunch means = makeLaunch();
-    means.guides = launch.tones;
-    means.use = shared::kMeansToTones;
-    const auto record = [&](VkCommandBuffer commands) {
-        const auto run = [&](DenoisePass pass, const auto& of) {
-            pipelines_.run(commands, pass, of, groups());
-            vulkan::barrier(commands, vulkan::kComputeWrite, context_.bufferUses());
-        };
-        run(DenoisePass::LivePrepare, launch);
-        run(DenoisePass::Mean, means);
-        for (launch.level = 0; launch.level < shared::kLiveLevels; ++launch.level) {
-            run(DenoisePass::Live, launch);
-            std::swap(launch.radiance, launch.newRadiance);
-            std::swap(launch.tones, launch.newTones);
-        }
-    };
-    passSeconds_[static_cast<std::size_t>(DenoisePass::Live)] = context_.runTimed(record);
-}
-
 // ---- results -------------------------------------------------------------------------------------------------------
 
 void DeviceDenoiser::readSums(std::uint32_t dependentSide) {
@@ -330,10 +302,6 @@ image::Denoised DeviceDenoiser::read(bool details) const {
     result.error = image::Image(width_, height_);
     for (std::size_t i = 0; i < pixels_; ++i) std::copy_n(&errors.data[4 * i], 3, &result.error.data[3 * i]);
     return result;
-}
-
-image::Image DeviceDenoiser::readLive() const {
-    return read(halves_, 3, 0);
 }
 
 } // namespace rt::gpu

@@ -22,12 +22,28 @@
 
 namespace rt::gpu {
 
-// In their order, but for means, which are taken of what several of them write. The last two are those of live quality,
-// of which Live has the time of all.
-enum class DenoisePass { Depths, Prepare, Mean, Features, Fit, Errors, Mix, Blend, LivePrepare, Live };
-inline constexpr std::size_t kDenoisePasses = 10;
+struct HistoryStep;
+
+// In their order, but for means, which are taken of what several of them write. The last four are those of live
+// quality, of which Live has the time of all; HistoryMerge that of the history where only that is made.
+enum class DenoisePass {
+    Depths,
+    Prepare,
+    Mean,
+    Features,
+    Fit,
+    Errors,
+    Mix,
+    Blend,
+    History,
+    HistoryMerge,
+    LivePrepare,
+    Live
+};
+inline constexpr std::size_t kDenoisePasses = 12;
 inline constexpr std::array<const char*, kDenoisePasses> kDenoisePassNames{
-    "depths", "prepare", "mean", "features", "fit", "errors", "mix", "blend", "live_prepare", "live"};
+    "depths", "prepare", "mean",    "features",      "fit",          "errors",
+    "mix",    "blend",   "history", "history_merge", "live_prepare", "live"};
 
 // The compiled shaders, for pictures of any size. Each is compiled when it is first needed.
 class DenoisePipelines {
@@ -76,9 +92,12 @@ class DeviceDenoiser {
     bool run(std::uint64_t samplesOfHalf, std::uint32_t dependentSide, const std::atomic<bool>* cancel = nullptr);
     // What it made; the picture alone, or all details.
     image::Denoised read(bool details) const;
-    // Filters the halves by live quality, and what that made.
-    void runLive();
+    // Filters the halves by live quality, in one launch, and what that made. With a history, they take over what the
+    // picture before has left, and leave what they have.
+    void runLive(const HistoryStep* history = nullptr);
     image::Image readLive() const;
+    // Halves whose picture is of final quality leave the same. To be called when that has been read.
+    void remember(const HistoryStep& history);
 
     // Of the device, in the last run.
     std::span<const double, kDenoisePasses> passSeconds() const { return passSeconds_; }
@@ -92,6 +111,9 @@ class DeviceDenoiser {
     float findUsualDepth();
     bool fit(shared::DenoiseLaunch launch, const std::atomic<bool>* cancel);
     void readSums(std::uint32_t dependentSide);
+    void recordHistory(VkCommandBuffer commands, const HistoryStep& step);
+    void recordLive(VkCommandBuffer commands, VkDeviceAddress halves);
+    VkDeviceAddress mergedAddress() const;
     image::Image read(const vulkan::Buffer& from, std::uint32_t channels, VkDeviceSize firstByte) const;
 
     vulkan::VulkanContext& context_;

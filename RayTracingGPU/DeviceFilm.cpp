@@ -327,6 +327,13 @@ std::uint64_t DeviceFilm::resolveHalves(FilmResolver& resolver, const vulkan::Bu
     return samples * (desc_.replicates / 2);
 }
 
+std::uint64_t DeviceFilm::resolveOne(FilmResolver& resolver, const vulkan::Buffer& to) const {
+    if (!isImage() || desc_.replicates > 1) return 0;
+    const std::uint64_t samples = *std::min_element(samples_.begin(), samples_.end());
+    if (samples > 0) resolver.resolveOne(resolution(), to);
+    return samples;
+}
+
 // ---- pipelines -----------------------------------------------------------------------------------------------------
 
 FilmPipeline::FilmPipeline(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, Shader shader,
@@ -367,6 +374,11 @@ void FilmResolver::resolveHalves(shared::ResolveLaunch launch, const vulkan::Buf
     launch.pixels = to.address();
     launch.halves = 2;
     launch.apart = 1;
+    run(launch, context_.bufferUses());
+}
+
+void FilmResolver::resolveOne(shared::ResolveLaunch launch, const vulkan::Buffer& to) {
+    launch.pixels = to.address();
     run(launch, context_.bufferUses());
 }
 

@@ -41,6 +41,8 @@ class FilmResolver {
     image::Image resolve(shared::ResolveLaunch launch);
     // Both halves, to the buffer; likewise.
     void resolveHalves(shared::ResolveLaunch launch, const vulkan::Buffer& to);
+    // The picture, to the buffer; likewise.
+    void resolveOne(shared::ResolveLaunch launch, const vulkan::Buffer& to);
 
   private:
     void run(const shared::ResolveLaunch& launch, vulkan::Access uses);
@@ -74,6 +76,8 @@ class DeviceFilm {
     // The mean of each half of its samples, as two pictures of three floats a pixel. Returns how many samples of each
     // half a pixel has, at least; 0: it has not both halves everywhere, and nothing was written.
     std::uint64_t resolveHalves(FilmResolver& resolver, const vulkan::Buffer& to) const;
+    // The mean of all samples of a film of one replicate, and how many a pixel has at least; likewise.
+    std::uint64_t resolveOne(FilmResolver& resolver, const vulkan::Buffer& to) const;
     // Makes room for blocks that stay open.
     void reserveOpenBlocks();
 

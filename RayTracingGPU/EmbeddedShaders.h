@@ -38,6 +38,8 @@
     X(DenoiseMix, DenoiseMix_comp)                             \
     X(DenoiseBlend, DenoiseBlend_comp)                         \
     X(DenoiseDepths, DenoiseDepths_comp)                       \
+    X(DenoiseHistory, DenoiseHistory_comp)                     \
+    X(DenoiseHistoryMerge, DenoiseHistoryMerge_comp)           \
     X(DenoiseLivePrepare, DenoiseLivePrepare_comp)             \
     X(DenoiseLive, DenoiseLive_comp)                           \
     X(PreviewVertex, Preview_vert)                             \

@@ -248,4 +248,10 @@ std::uint64_t FilmRenderer::resolveHalves(const vulkan::Buffer& to) {
     return region_->resolveHalves(*resolver_, to);
 }
 
+std::uint64_t FilmRenderer::resolveOne(const vulkan::Buffer& to) {
+    if (failed_ || !region_) return 0;
+    if (!resolver_) resolver_.emplace(context_, cache_);
+    return region_->resolveOne(*resolver_, to);
+}
+
 } // namespace rt::gpu

@@ -45,8 +45,9 @@ class FilmRenderer {
     // From the device; nothing where the host has what there is.
     std::optional<app::TilesToPack> takeTiles(const image::TileList& tiles);
     std::optional<app::Snapshot> snapshot();
-    // As DeviceFilm's; 0 also where the film is not on the device. Where it throws, the film is there still.
+    // As DeviceFilm's; 0 also where the film is not on the device. Where they throw, the film is there still.
     std::uint64_t resolveHalves(const vulkan::Buffer& to);
+    std::uint64_t resolveOne(const vulkan::Buffer& to);
 
     // The device was lost: nothing is read from it any more.
     bool hasFailed() const { return failed_; }

@@ -28,6 +28,11 @@ bool GpuDenoiser::provideSurfaces(FilmOnDevice& film, std::uint32_t samples, con
     return true;
 }
 
+void GpuDenoiser::begin(const shared::Camera& camera, const app::RenderSettings& settings) {
+    surfaceSamples_ = 0;
+    history_.begin(camera, settings);
+}
+
 void GpuDenoiser::report(app::DenoisedPicture& result) const {
     result.device = context_.info().name;
     for (std::size_t i = 0; i < kDenoisePasses; ++i)
@@ -64,6 +69,7 @@ class FilmDenoiser final : public app::PictureDenoiser {
         : engine_(engine), film_(film), width_(width), height_(height) {}
 
     bool isQuick() const override { return !hasFailed_ || byHost_->isQuick(); }
+    bool needsHalves() const override { return hasFailed_; }
 
     std::optional<app::DenoisedPicture> denoise(const app::DenoiseRequest& request,
                                                 const std::atomic<bool>& cancel) override {
@@ -83,22 +89,34 @@ class FilmDenoiser final : public app::PictureDenoiser {
         return *byHost_;
     }
 
+    // A film of one replicate, as of one sample a pixel, has no halves, but each of its pixels may belong to one.
+    std::uint64_t resolve(bool isLive, const vulkan::Buffer& to, bool& isOne) {
+        const std::uint64_t samplesOfHalf = film_.resolveHalves(to);
+        isOne = samplesOfHalf == 0 && isLive;
+        return isOne ? film_.resolveOne(to) : samplesOfHalf;
+    }
+
     std::optional<app::DenoisedPicture> onDevice(const app::DenoiseRequest& request, const std::atomic<bool>& cancel) {
         const app::Stopwatch watch;
-        DeviceDenoiser& device = film_.denoiser().of(width_, height_);
-        const std::uint64_t samplesOfHalf = film_.resolveHalves(device.halves());
-        if (samplesOfHalf == 0) return host().denoise(request, cancel); // a part of the film may be on the host
-        if (!film_.denoiser().provideSurfaces(film_, request.featureSamples, cancel)) return std::nullopt;
+        GpuDenoiser& denoiser = film_.denoiser();
+        DeviceDenoiser& device = denoiser.of(width_, height_);
+        const bool isLive = request.quality == app::DenoiseQuality::Live;
+        bool isOne = false;
+        const std::uint64_t samples = resolve(isLive, device.halves(), isOne);
+        if (samples == 0) return host().denoise(request, cancel); // a part of the film may be on the host
+        if (!denoiser.provideSurfaces(film_, request.featureSamples, cancel)) return std::nullopt;
         app::DenoisedPicture result;
         result.quality = request.quality;
-        if (request.quality == app::DenoiseQuality::Live) {
-            device.runLive();
+        if (isLive) {
+            const HistoryStep step = denoiser.history().step(width_, height_, samples, isOne);
+            device.runLive(&step);
             result.images.picture = device.readLive();
         } else {
-            if (!device.run(samplesOfHalf, film_.dependentSide(), &cancel)) return std::nullopt;
+            if (!device.run(samples, film_.dependentSide(), &cancel)) return std::nullopt;
             result.images = device.read(request.details);
+            if (denoiser.history().isInUse()) device.remember(denoiser.history().step(width_, height_, samples, false));
         }
-        film_.denoiser().report(result);
+        denoiser.report(result);
         result.seconds = watch.seconds();
         return result;
     }

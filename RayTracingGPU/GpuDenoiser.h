@@ -8,10 +8,13 @@
 #include "Common/Image/Denoise/Denoiser.h"
 #include "Common/Render/Engine.h"
 #include "Common/Render/PictureDenoiser.h"
+#include "Common/Render/Settings.h"
+#include "Common/Shared/Base/Types.h"
 #include "Common/Vulkan/Buffer.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/VulkanContext.h"
 #include "RayTracingGPU/DeviceDenoiser.h"
+#include "RayTracingGPU/LiveHistory.h"
 
 namespace rt::gpu {
 
@@ -23,6 +26,7 @@ class FilmOnDevice {
     virtual std::uint32_t dependentSide() const = 0;
     // As DeviceFilm's.
     virtual std::uint64_t resolveHalves(const vulkan::Buffer& to) = 0;
+    virtual std::uint64_t resolveOne(const vulkan::Buffer& to) = 0;
     // First-hit features, kSurfaceValues of each pixel. False: cancelled.
     virtual bool renderSurfaces(std::uint32_t samples, const vulkan::Buffer& to, const std::atomic<bool>& cancel) = 0;
 };
@@ -30,7 +34,7 @@ class FilmOnDevice {
 class GpuDenoiser {
   public:
     GpuDenoiser(vulkan::VulkanContext& context, vulkan::PipelineCache& cache)
-        : context_(context), pipelines_(context, cache) {}
+        : context_(context), pipelines_(context, cache), history_(context) {}
 
     // The picture of these halves, as image::denoise() makes it. `surfaces`: whose features are taken, on the device,
     // in place of those that come with the halves. Throws RenderError, and Interrupted.
@@ -40,14 +44,16 @@ class GpuDenoiser {
     DeviceDenoiser& of(std::uint32_t width, std::uint32_t height);
     // Features of at least so many samples, which stay until they are forgotten. False: cancelled.
     bool provideSurfaces(FilmOnDevice& film, std::uint32_t samples, const std::atomic<bool>& cancel);
-    // For another camera or scene.
-    void forgetSurfaces() { surfaceSamples_ = 0; }
+    // Another film begins.
+    void begin(const shared::Camera& camera, const app::RenderSettings& settings);
+    LiveHistory& history() { return history_; }
     // What the last run of it says besides pictures.
     void report(app::DenoisedPicture& result) const;
 
   private:
     vulkan::VulkanContext& context_;
     DenoisePipelines pipelines_;
+    LiveHistory history_;
     std::optional<DeviceDenoiser> picture_; // of the size of the last one
     std::uint32_t width_ = 0, height_ = 0;  // which is this
     std::uint32_t surfaceSamples_ = 0;      // of the engine's own surfaces that are there; 0: none or others

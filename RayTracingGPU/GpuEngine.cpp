@@ -9,6 +9,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Render/PictureDenoiser.h"
 #include "Common/Render/RenderParams.h"
+#include "Common/Scene/CameraRecord.h"
 #include "Common/Shared/Base/Features.h"
 #include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/PipelineCache.h"
@@ -71,6 +72,7 @@ class GpuEngine final : public app::Engine, private FilmOnDevice {
     GpuDenoiser& denoiser() override;
     std::uint32_t dependentSide() const override { return app::dependentSide(features_); }
     std::uint64_t resolveHalves(const vulkan::Buffer& to) override { return renderer_.resolveHalves(to); }
+    std::uint64_t resolveOne(const vulkan::Buffer& to) override { return renderer_.resolveOne(to); }
     bool renderSurfaces(std::uint32_t samples, const vulkan::Buffer& to, const std::atomic<bool>& cancel) override;
     // Not where the device fails.
     std::optional<app::DenoisedPicture> denoiseOnDevice(const image::DenoiseInput& halves, bool details,
@@ -92,6 +94,7 @@ class GpuEngine final : public app::Engine, private FilmOnDevice {
     bool isNewScene_ = false;            // since the last reset
     std::optional<PreviewPass> preview_; // of the scene, once it was asked for
     app::RenderSettings settings_;
+    shared::Camera camera_{};
     shared::RenderParams params_{};
     shared::Features features_;
 };
@@ -114,7 +117,10 @@ void GpuEngine::adopt(const scene::CameraDesc& camera, const app::RenderSettings
     settings_ = settings;
     params_ = app::makeRenderParams(scene_->compiled(), settings);
     renderer_.adopt(settings_, features_, shared::reusesPaths(features_, params_));
-    if (denoiser_) denoiser_->forgetSurfaces();
+    camera_ = scene::makeCamera(camera, settings.width, settings.height, scene_->compiled().origin);
+    if (!denoiser_) return;
+    if (isNewScene_) denoiser_->history().forget();
+    denoiser_->begin(camera_, settings);
 }
 
 void GpuEngine::makeReady(const scene::CameraDesc& camera) {
@@ -168,7 +174,10 @@ std::unique_ptr<app::PictureDenoiser> GpuEngine::makeDenoiser() {
 }
 
 GpuDenoiser& GpuEngine::denoiser() {
-    if (!denoiser_) denoiser_.emplace(context_, cache_);
+    if (!denoiser_) {
+        denoiser_.emplace(context_, cache_);
+        denoiser_->begin(camera_, settings_);
+    }
     return *denoiser_;
 }
 

@@ -8,7 +8,8 @@
 layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
 
 void main() {
-    bool ofVariance = launch.use == kMeansToGuides || launch.use == kMeansToTones;
+    bool ofVariance =
+        launch.use == kMeansToGuides || launch.use == kMeansToTones || launch.use == kMeansOfHistory;
     int reach = ofVariance ? kDenoiseVarianceReach : kDenoiseErrorReach;
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (!isInside(pixel)) return;
@@ -31,6 +32,8 @@ void main() {
     } else if (launch.use == kMeansToTones) {
         for (uint half_ = 0u; half_ < 2u; half_++)
             launch.guides.at[half_ * pixelCount() + pixelIndex(pixel)].w = mean.x;
+    } else if (launch.use == kMeansOfHistory) {
+        launch.means.at[pixelIndex(pixel)] = mean;
     } else if (launch.use == kMeansPositive) {
         launch.means.at[pixelIndex(pixel)] = max(mean, vec4(0.0f));
     } else { // of the candidates' errors

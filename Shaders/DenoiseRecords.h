@@ -3,6 +3,7 @@
 #ifndef RT_SHADERS_DENOISE_RECORDS_H
 #define RT_SHADERS_DENOISE_RECORDS_H
 #include "Common/Shared/Denoise/DenoiseFit.h"
+#include "Common/Shared/Denoise/DenoiseHistory.h"
 #include "Common/Shared/Denoise/DenoiseWeights.h"
 #include "Records.h"
 
@@ -29,9 +30,10 @@ const uint kDenoiseMixSums = 8u;                                // from here on 
 
 // What a pass that averages over squares does with the means.
 const uint kMeansAsTheyAre = 0u;
-const uint kMeansToGuides = 1u; // the first component is the variance of both guides
-const uint kMeansPositive = 2u; // negative ones become 0
-const uint kMeansToTones = 3u;  // as to guides, where these are tones of LiveLaunch
+const uint kMeansToGuides = 1u;  // the first component is the variance of both guides
+const uint kMeansPositive = 2u;  // negative ones become 0
+const uint kMeansToTones = 3u;   // as to guides, where these are tones of LiveLaunch
+const uint kMeansOfHistory = 4u; // as they are, over the pixels that a variance is averaged over
 
 // Push constants of all passes. Halves follow each other in what has both.
 struct DenoiseLaunch {
@@ -72,6 +74,43 @@ struct LiveLaunch {
     uint width;
     uint height;
     int level;
+};
+
+// The cameras of a live picture and of the one before it.
+struct HistoryCameras {
+    Camera now;
+    Camera last;
+};
+#ifdef __cplusplus
+using HistoryCamerasAddress = std::uint64_t;
+#else
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer HistoryCamerasAddress {
+    HistoryCameras at;
+};
+#endif
+
+// Planes of what a live picture leaves for the next one: both halves as radiance and number of samples; points, from
+// the middle of the lens, with what packHistorySurface() makes of the rest.
+const uint kHistoryPlanes = 3u;
+const uint kHistoryPoints = 2u;
+// Push constants of DenoiseHistory.comp and DenoiseHistoryMerge.comp.
+struct HistoryLaunch {
+    MutableVectorArray halves;   // as DenoiseLaunch's; where both are one picture, that alone
+    MutableFloatArray surfaces;  // as DenoiseLaunch's
+    HistoryCamerasAddress views; // of both pictures
+    PixelPlane last;             // kHistoryPlanes of the picture before; read where lastWidth is not 0
+    PixelPlane next;             // the same of this one
+    PixelPlane found;            // both halves of the picture before, where this one's camera sees them
+    PixelPlane differences;      // of new samples from these, of each half, and their squares
+    PixelPlane means;            // of these
+    MutableVectorArray merged;   // both halves, with their history
+    uint width;
+    uint height;
+    uint lastWidth;
+    uint lastHeight;
+    float samples;       // that a pixel of a half is the mean of, or one of a picture that is one
+    uint isOne;          // 1: the picture is one, and each of its pixels belongs to a half,
+    uint firstHalfOfOne; // that in the upper left corner to this one
 };
 
 // Push constants of DenoiseDepths.comp.

@@ -73,7 +73,7 @@ class LiveRun {
         shown.figures.spp = spp;
         shown.figures.seconds = film.seconds();
         shown.raw = engine_->film().resolve();
-        if (auto live = engine_->makeDenoiser()->denoise({app::DenoiseQuality::Live}, stop_)) {
+        if (auto live = engine_->makeDenoiser()->denoise({app::DenoiseQuality::Live, false, 1}, stop_)) { // as windows
             shown.live = std::move(live->images.picture);
             shown.figures.secondsFilter = live->seconds;
         }

@@ -49,8 +49,11 @@ class PictureDenoiser {
     // wait until the film rests.
     virtual bool isQuick() const { return true; }
 
+    // Whether live pictures need two halves of the film's samples, too: a film of one sample a pixel has none.
+    virtual bool needsHalves() const { return true; }
+
     // The film as it is, which stays as it is. None where `cancel` became true, and where the film has no two halves of
-    // its samples, or lacks one in some pixel as yet. Returns within 100 ms once `cancel` is true; what it has made of
+    // its samples that are needed, or lacks one in some pixel as yet. Returns within 100 ms once `cancel` is true; what it has made of
     // features by then is kept for the next call. Throws what the engine throws.
     virtual std::optional<DenoisedPicture> denoise(const DenoiseRequest& request, const std::atomic<bool>& cancel) = 0;
 };

@@ -40,16 +40,19 @@ void PictureFilter::forget() {
 PictureFilter::Pointer PictureFilter::filterDraft(const FilmRun& draft) {
     static const std::atomic<bool> isNever{false};
     begin(draft.engine());
-    if (denoiser_ && isQuick_ && draft.settings().replicates >= kHalves)
-        make(draft, DenoiseQuality::Live, false, isNever);
+    if (denoiser_ && isQuick_ && hasWhatLiveNeeds(draft)) make(draft, DenoiseQuality::Live, false, isNever);
     const Pointer made = last_;
     end();
     return made;
 }
 
+bool PictureFilter::hasWhatLiveNeeds(const FilmRun& film) const {
+    return film.settings().replicates >= kHalves || (film.settings().spp < kHalves && !denoiser_->needsHalves());
+}
+
 bool PictureFilter::canFilter(const FilmRun& film) const {
     const std::uint64_t samples = film.status().samplesDone;
-    return denoiser_ && film.settings().replicates >= kHalves && samples > 0 && refusedSamples_ != samples;
+    return denoiser_ && hasWhatLiveNeeds(film) && samples > 0 && refusedSamples_ != samples;
 }
 
 PictureFilter::Pointer PictureFilter::update(const FilmRun& film, Haste haste, bool wantsDetails) {
@@ -63,7 +66,7 @@ PictureFilter::Pointer PictureFilter::update(const FilmRun& film, Haste haste, b
 }
 
 bool PictureFilter::canImprove(const FilmRun& film, bool wantsDetails) const {
-    if (!canFilter(film)) return false;
+    if (!canFilter(film) || film.settings().replicates < kHalves) return false;
     return !isFinal() || film.status().samplesDone != samples_ || (wantsDetails && !hasDetails_);
 }
 

@@ -45,7 +45,8 @@ class PictureFilter {
     }
 
   private:
-    bool canFilter(const FilmRun& film) const; // whether it has both halves, as far as is known
+    bool hasWhatLiveNeeds(const FilmRun& film) const; // needs denoiser_
+    bool canFilter(const FilmRun& film) const;        // whether it has what is needed, as far as is known
     bool isFinal() const { return last_ && last_->quality == DenoiseQuality::Final; }
     bool isLiveQuick(const FilmRun& film) const;
     bool isFinalDue(const FilmRun& film, Haste haste, bool wantsDetails) const;

@@ -151,8 +151,9 @@ void SessionFilm::start(const FilmSubject& subject) {
 // Something to look at at once, where the first samples of the whole image would take longer.
 void SessionFilm::renderDraft(const FilmSubject& subject, const RenderSettings& settings) {
     publisher.discardDraft();
-    const auto small = draftSettings(settings, speed_, publisher.denoiseSecondsPerPixel());
+    auto small = draftSettings(settings, speed_, publisher.denoiseSecondsPerPixel());
     if (!small) return;
+    small->seed += ++drafts_; // a denoiser with a history of them gains by noise that is another each time
     run_.reset();
     publisher.endFilter();
     FilmRun draft(subject.engine, subject.camera, *small);

@@ -76,6 +76,7 @@ class SessionFilm {
     std::optional<FilmRun> run_;              // of the film that the engine holds
     bool isStale_ = true;                     // or there is none
     std::uint32_t round_ = 0;                 // films since the last change
+    std::uint32_t drafts_ = 0;                // of all films
     std::optional<RenderSettings> postponed_; // not begun, since the camera moved on when its draft was shown
     RenderSpeed speed_;
 };
