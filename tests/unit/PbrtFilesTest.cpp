@@ -77,6 +77,26 @@ TEST(PbrtFiles, WhatIsLeftOutIsTold) {
     EXPECT_TRUE(test::hasNotice(scene, "--exposure 2"));
 }
 
+// As public scenes have them: none of it is a reason to stop.
+TEST(PbrtFiles, OddTexturesAreNoMistakes) {
+    const test::PbrtFolder folder;
+    const SceneDesc scene = folder.load(
+        "WorldBegin\nTexture \"bumps\" \"float\" \"imagemap\" \"float scale\" -3.5 \"string filename\" [ \"a b.png\" "
+        "]\n"
+        "Texture \"up\" \"spectrum\" \"imagemap\" \"float scale\" 3 \"string filename\" \"c.png\"\n"
+        "Texture \"cover\" \"float\" \"imagemap\" \"string filename\" \"c.png\" \"string mapping\" \"planar\" "
+        "\"vector3 v1\" [ 0 1 0 ]\nTexture \"red\" \"spectrum\" \"scale\" \"rgb tex\" [ .5 .25 .125 ] "
+        "\"texture scale\" \"cover\"\nTexture \"both\" \"spectrum\" \"directionmix\" \"texture tex1\" [ \"up\" ] "
+        "\"texture tex2\" [ \"red\" ] \"vector3 dir\" [ 0 1 0 ]\n"
+        "Material \"coateddiffuse\" \"texture displacement\" \"bumps\" \"texture reflectance\" \"both\"\nShape "
+        "\"sphere\"\n"
+        "Material \"diffuse\" \"texture reflectance\" \"red\"\nShape \"sphere\"\n");
+    const auto& red = std::get<std::string>(scene.materials.at(shapeOf<SphereDesc>(scene, 1).material).albedo);
+    EXPECT_EQ(std::get<ImageTexture>(scene.textures.at(red)).tint, glm::dvec3(0.5, 0.25, 0.125));
+    EXPECT_TRUE(test::hasNotice(scene, "bumps by \"displacement\" are left out"));
+    for (const std::string& notice : scene.notices) EXPECT_EQ(notice.find("\"vector3"), notice.npos) << notice;
+}
+
 TEST(PbrtFiles, PackedOnesAreRead) {
 #ifndef RT_HAS_ZLIB
     GTEST_SKIP() << "this build has no zlib";

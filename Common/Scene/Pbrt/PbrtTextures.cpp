@@ -132,9 +132,9 @@ PbrtTexture PbrtTextures::imageMap(bool isColor, const PbrtParameters& parameter
                            parameters.number("udelta", 0), 0,
                            parameters.number("vscale", 1), parameters.number("vdelta", 0)};
     for (const char* quality : {"filter", "maxanisotropy"}) parameters.find(quality);
-    const double scale = parameters.number("scale", 1, 0, kLargest);
+    const double scale = parameters.number("scale", 1); // negative ones are of bumps
     if (scale > 1) notices_.add("textures that are scaled up keep 1 as their factor", parameters.place);
-    texture.tint = glm::dvec3(std::min(scale, 1.0));
+    texture.tint = glm::dvec3(std::clamp(scale, 0.0, 1.0));
     PbrtTexture made;
     made.value = texture;
     made.isInverted = parameters.boolean("invert", false);
@@ -185,6 +185,7 @@ PbrtTexture PbrtTextures::mixed(const PbrtParameters& parameters, PbrtUse use) {
     const PbrtTexture second = value(parameters, "tex2", use, glm::dvec3(1));
     const PbrtTexture amount = value(parameters, "amount", PbrtUse::Number, glm::dvec3(0.5));
     const double share = greyLike(amount).x;
+    parameters.find("dir"); // of directionmix
     if (first.isConstant() && second.isConstant() && amount.isConstant())
         return {glm::mix(std::get<glm::dvec3>(first.value), std::get<glm::dvec3>(second.value), share)};
     if (share > 0 && share < 1)
