@@ -221,7 +221,8 @@ bool fly(Gui& gui, std::span<const InputEvent> input, double seconds) {
     const double up = axis(GLFW_KEY_E, GLFW_KEY_Q);
     // What is selected is scaled by S, and duplicated by Shift and D.
     const bool isEditing = gui.editor.selection().has_value();
-    const double forward = isEditing ? axis(GLFW_KEY_W, GLFW_KEY_UNKNOWN) : axis(GLFW_KEY_W, GLFW_KEY_S);
+    double forward = axis(GLFW_KEY_W, GLFW_KEY_S);
+    if (isEditing) forward = isPressed(GLFW_KEY_W) ? 1 : 0;
     if (control && (isPressed(GLFW_KEY_S) || isPressed(GLFW_KEY_Q))) return false; // save, quit
     if (right == 0 && up == 0 && forward == 0) return false;
     const double pace = shift ? kFast : control ? kSlow : 1;
