@@ -51,9 +51,11 @@ class LiveRun {
     std::vector<LiveFrame> run() {
         std::vector<Shown> shown;
         if (engine_ == nullptr) return {};
-        for (const std::uint32_t spp : request_.spp)
+        for (const std::uint32_t spp : request_.spp) {
+            if (!engine_->setScene(scene_, &stop_)) break; // which forgets the pictures before, of another number
             for (std::uint32_t frame = 0; frame < request_.frames + request_.framesAfter && !stop_; ++frame)
                 if (auto picture = show(frame, spp)) shown.push_back(std::move(*picture));
+        }
         compare(shown);
         std::vector<LiveFrame> frames;
         for (const Shown& one : shown) frames.push_back(one.figures);
