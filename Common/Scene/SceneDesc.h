@@ -48,11 +48,18 @@ struct GradientBackground {
     glm::dvec3 top{0.5, 0.7, 1.0};
     bool operator==(const GradientBackground&) const = default;
 };
-// A latitude-longitude image, its upper row at +Y.
+// How an image covers the sphere. Pbrt: a square one in equal areas, on an octahedron whose middle is +Z (P. Clarberg,
+// Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD, 2008); another one by latitude and longitude, its upper row
+// at +Z, from +X by way of +Y.
+enum class SkyProjection { LatitudeLongitude, Pbrt };
+// A latitude-longitude image, its upper row at +Y, unless `projection` says otherwise.
 struct ImageBackground {
     std::string file;
     glm::dvec3 factor{1, 1, 1};
     double rotation = 0; // degrees, right-handed about +Y
+    SkyProjection projection = SkyProjection::LatitudeLongitude;
+    // Rows of the map from directions of the world, turned back by `rotation`, to those of the image.
+    std::array<double, 9> orientation{1, 0, 0, 0, 1, 0, 0, 0, 1};
     bool operator==(const ImageBackground&) const = default;
 };
 using Background = std::variant<ConstantBackground, GradientBackground, ImageBackground>;

@@ -12,6 +12,7 @@
 #include "Common/Scene/Compiler/ModelCache.h"
 #include "Common/Scene/Compiler/PrimitiveSink.h"
 #include "Common/Scene/Compiler/SceneHash.h"
+#include "Common/Scene/Compiler/SkyMaps.h"
 #include "Common/Scene/Compiler/SpecularCasters.h"
 #include "Common/Scene/Compiler/TextureTable.h"
 #include "Common/Scene/Compiler/TexturesInUse.h"
@@ -259,6 +260,7 @@ class Compiler {
             ImageTexture image;
             image.file = sky.file;
             globals.skyImage = textures_.image(image);
+            if (mustBeMapped(sky)) globals.skyImage = appendSkyMap(sky, globals.skyImage, *out_);
             globals.skyTop = shared::vec3(sky.factor);
             const double turn = glm::radians(sky.rotation);
             globals.skyTurn = shared::vec2(std::cos(turn), std::sin(turn));

@@ -141,6 +141,8 @@ OrderedJson json(const Background& background) {
     OrderedJson out = {{"type", "image"}, {"file", image.file}};
     setUnless(out, "factor", image.factor, glm::dvec3(1));
     setUnless(out, "rotation", image.rotation, 0.0);
+    if (image.projection == SkyProjection::Pbrt) out["projection"] = "pbrt";
+    if (image.orientation != ImageBackground().orientation) out["orientation"] = image.orientation;
     return out;
 }
 

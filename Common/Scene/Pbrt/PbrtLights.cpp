@@ -55,7 +55,7 @@ void PbrtLights::add(const std::string& kind, const PbrtParameters& parameters, 
     } else if (kind == "distant") {
         distant(parameters, toWorld);
     } else if (kind == "infinite") {
-        infinite(parameters);
+        infinite(parameters, toWorld);
     } else {
         parameters.fail("the light is unknown; known are " + std::string(kLights));
     }
@@ -125,27 +125,36 @@ void PbrtLights::distant(const PbrtParameters& parameters, const Affine& toWorld
     scene_.objects.push_back({light});
 }
 
-// Constant ones add up.
-void PbrtLights::addSky(const glm::dvec3& light) {
-    auto& sky = std::get<ConstantBackground>(scene_.background);
-    sky.color = bounded(sky.color + light);
-}
-
-void PbrtLights::infinite(const PbrtParameters& parameters) {
+void PbrtLights::infinite(const PbrtParameters& parameters, const Affine& toWorld) {
     if (parameters.has("portal")) notices_.add("portals of infinite lights are left out", parameters.place);
     const std::string file = parameters.string("filename", "");
-    if (!file.empty()) return addImage(parameters);
+    if (!file.empty()) return addImage(parameters, file, toWorld);
     const double illuminance = parameters.number("illuminance", -1);
     const glm::dvec3 light = color(parameters, "L") * (illuminance > 0 ? illuminance / kPi : 1);
-    addSky(light);
+    if (auto* constant = std::get_if<ConstantBackground>(&scene_.background)) // which add up
+        constant->color = bounded(constant->color + light);
+    else
+        notices_.add("of several infinite lights the one with an image counts alone", parameters.place);
 }
 
-// As bright as an image of white.
-void PbrtLights::addImage(const PbrtParameters& parameters) {
+// Its directions are those of the light's own space: see SkyProjection.
+void PbrtLights::addImage(const PbrtParameters& parameters, const std::string& file, const Affine& toWorld) {
+    ImageBackground image;
+    image.file = files_.existing(file, parameters.find("filename")->place).generic_string();
+    image.factor = bounded(color(parameters, "L"));
+    image.projection = SkyProjection::Pbrt;
     if (parameters.number("illuminance", -1) > 0)
         notices_.add("the illuminance of images is left out", parameters.place);
-    notices_.add("images of infinite lights are left out: they are white", parameters.place);
-    addSky(color(parameters, "L"));
+    const std::optional<Affine> toLight = inverse(toWorld);
+    if (!toLight) parameters.fail("its transform cannot be inverted");
+    const double scale = std::cbrt(std::abs(glm::determinant(toLight->linear)));
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            image.orientation[static_cast<std::size_t>(3 * row + column)] = toLight->linear[column][row] / scale;
+    const auto* constant = std::get_if<ConstantBackground>(&scene_.background);
+    if (!constant || constant->color != glm::dvec3(0))
+        notices_.add("of several infinite lights the one with an image counts alone", parameters.place);
+    scene_.background = image;
 }
 
 void PbrtLights::addEmission(const PbrtParameters& parameters, const PbrtShape& shape, const Affine& toWorld,

@@ -32,9 +32,8 @@ class PbrtLights {
     void spot(const PbrtParameters& parameters, const Affine& toWorld);
     void projection(const PbrtParameters& parameters, const Affine& toWorld);
     void distant(const PbrtParameters& parameters, const Affine& toWorld);
-    void infinite(const PbrtParameters& parameters);
-    void addImage(const PbrtParameters& parameters);
-    void addSky(const glm::dvec3& light);
+    void infinite(const PbrtParameters& parameters, const Affine& toWorld);
+    void addImage(const PbrtParameters& parameters, const std::string& file, const Affine& toWorld);
     void addSpot(const PbrtParameters& parameters, SpotLightDesc light);
 
     SceneDesc& scene_;
