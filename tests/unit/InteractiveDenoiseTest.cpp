@@ -183,6 +183,37 @@ TEST_F(InteractiveDenoiseTest, WhateverIsWantedCallsTheFilterOff) {
     session.close(); // ends, too
 }
 
+// Its live pictures are those of any film.
+class UndemandingEngine : public SlowEngine {
+  public:
+    std::unique_ptr<PictureDenoiser> makeDenoiser() override {
+        class Undemanding : public PictureDenoiser {
+            bool needsHalves() const override { return false; }
+            std::optional<DenoisedPicture> denoise(const DenoiseRequest& request, const std::atomic<bool>&) override {
+                if (request.quality == DenoiseQuality::Final) return std::nullopt;
+                DenoisedPicture made;
+                made.quality = request.quality;
+                made.images.picture = image::Image(24, 24);
+                return made;
+            }
+        };
+        return std::make_unique<Undemanding>();
+    }
+};
+
+TEST_F(InteractiveDenoiseTest, AFilmOfOneSampleHasALivePictureWhereThatNeedsNoHalves) {
+    for (const bool needsHalves : {false, true}) {
+        InteractiveSession::Setup wanted = denoising(1);
+        if (!needsHalves) wanted.makeEngine = [](const EngineChoice&) { return std::make_unique<UndemandingEngine>(); };
+        InteractiveSession session(wanted);
+        session.view(viewOf(ViewMode::Picture));
+        ASSERT_TRUE(reaches(session, isFinished));
+        EXPECT_EQ(session.state().settings.replicates, 1u);
+        EXPECT_EQ(session.state().picture.isDenoised, !needsHalves);
+        EXPECT_EQ(session.state().picture.isLive, !needsHalves);
+    }
+}
+
 // Says that it fails; the render goes on without it.
 class NoFeaturesEngine : public SlowEngine {
   public:
