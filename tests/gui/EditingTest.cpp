@@ -49,6 +49,28 @@ class EditingTest : public WindowTest {
 INSTANTIATE_TEST_SUITE_P(, EditingTest, kFirstProgram, nameOfProgram);
 INSTANTIATE_TEST_SUITE_P(Nightly, EditingTest, kSecondProgram, nameOfProgram);
 
+TEST_P(EditingTest, ABallBecomesMetalALightIsAddedAndBothAreSaved) {
+    startWithBall();
+    ASSERT_FALSE(HasFatalFailure());
+    ASSERT_TRUE(selectBall()) << log();
+    ASSERT_TRUE(clickText("Lambertian", kSidePlace, [this] { return isShown("Dielectric"); })) << log();
+    ASSERT_TRUE(clickText("Metal", [this] { return !isShown("Dielectric") && isShown("Fuzz", kSidePlace); })) << log();
+    EXPECT_TRUE(eventually([this] { return isMarkedUnsaved(); }, kSeen)) << title();
+    ASSERT_TRUE(clickText("Add", kSidePlace, [this] { return isShown("Point light"); })) << log();
+    ASSERT_TRUE(clickText("Point light", [this] { return isShown("Intensity", kSidePlace); })) << log();
+    key("ctrl+z");
+    EXPECT_TRUE(eventually([this] { return !isShown("1  Point light", kSidePlace); }, kSeen)) << log();
+    key("ctrl+y");
+    EXPECT_TRUE(eventually([this] { return isShown("1  Point light", kSidePlace); }, kSeen)) << log();
+    ASSERT_TRUE(clickText("Save*", kSidePlace, [this] { return !isMarkedUnsaved(); })) << log();
+    ASSERT_TRUE(eventually([this] { return saved().is_object() && saved()["objects"].size() == 2; })) << saved();
+    const nlohmann::json scene = saved();
+    EXPECT_EQ(scene["objects"][0]["type"], "sphere");
+    EXPECT_EQ(scene["objects"][1]["type"], "point_light");
+    EXPECT_EQ(scene["materials"]["m"]["type"], "metal");
+    expectCleanEnd();
+}
+
 // By keys alone from where the ball is selected; whoever closes the window is asked.
 TEST_P(EditingTest, AnObjectIsMovedByKeysAndEditsAreNotLostInSilence) {
     startWithBall();
