@@ -46,9 +46,7 @@ struct PbrtBytes::Impl {
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    [[noreturn]] void fail(const std::string& reason) const {
-        throw InputError(name + ": " + reason);
-    }
+    [[noreturn]] void fail(const std::string& reason) const;
 
     std::size_t readPlain(char* to, std::size_t most) {
         interruptionPoint();
@@ -97,6 +95,10 @@ struct PbrtBytes::Impl {
     std::uint64_t size = 0;
     bool isPacked = false;
 };
+
+void PbrtBytes::Impl::fail(const std::string& reason) const {
+    throw InputError(name + ": " + reason);
+}
 
 PbrtBytes::PbrtBytes(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
 PbrtBytes::~PbrtBytes() = default;
