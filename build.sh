@@ -5,8 +5,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 
 # Debian 12, Debian 13 and Ubuntu 24.04 have all of these.
 headless_packages=(g++ cmake ninja-build pkg-config libglm-dev libspdlog-dev nlohmann-json3-dev libcli11-dev
-                   libtinygltf-dev libstb-dev libjpeg-dev libpng-dev libopenexr-dev libtiff-dev libwebp-dev libdraco-dev libmeshoptimizer-dev zlib1g-dev libtbb-dev
-                   libvulkan-dev glslang-tools)
+                   libtinygltf-dev libstb-dev libjpeg-dev libpng-dev libopenexr-dev libtiff-dev libwebp-dev
+                   libdraco-dev libmeshoptimizer-dev zlib1g-dev libtbb-dev libvulkan-dev glslang-tools)
 build_packages=("${headless_packages[@]}" libglfw3-dev libimgui-dev fonts-dejavu-core)
 test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang clang-format clang-tidy spirv-tools patch
                vulkan-validationlayers xvfb xdotool libx11-dev assimp-testmodels zsh fish groff-base
@@ -67,8 +67,8 @@ usage() {
                          as root: ./build.sh run and ./build.sh test on bare systems of each release that is promised
                          (or of some: bookworm, trixie, noble), made in build/releases; hours, for nights
 ./build.sh compilers     build, then compile everything with LLVM's library of C++ and, for Windows, with MinGW
-./build.sh package       packages for this system in build/packages: .deb of the programs, of the modules in C++ and of the
-                         Python module, and .tar.gz of the programs that runs from any folder
+./build.sh package       packages for this system in build/packages: .deb of the programs, of the modules in C++ and of
+                         the Python module, and .tar.gz of the programs that runs from any folder
 ./build.sh package --test
                          then, as root, try them in a bare system (tests/packages/run.sh): for nights
 ./build.sh python        the Python module, installed into the active virtual environment or else for this user, and its

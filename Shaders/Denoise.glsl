@@ -2,19 +2,10 @@
 #include "DenoiseRecords.h"
 
 layout(push_constant, scalar) uniform Launch { DenoiseLaunch launch; };
+#include "DenoisePixels.glsl"
 
 const uint kRawCandidate = kDenoiseBandwidths; // leaves a pixel as it is
 
-bool isInside(ivec2 pixel) {
-    return pixel.x >= 0 && pixel.y >= 0 && pixel.x < int(launch.width) && pixel.y < int(launch.height);
-}
-// Of the image.
-uint pixelIndex(ivec2 pixel) {
-    return uint(pixel.y) * launch.width + uint(pixel.x);
-}
-uint pixelCount() {
-    return launch.width * launch.height;
-}
 // In a bordered plane of a half; up to kDenoiseBorder pixels outside of the image.
 int planeIndex(ivec2 pixel, int half_) {
     return (half_ * denoisePlaneRows(launch.height) + pixel.y + kDenoiseBorder) * denoisePitch(launch.width) + pixel.x +

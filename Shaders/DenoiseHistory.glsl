@@ -3,16 +3,8 @@
 
 layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
 layout(push_constant, scalar) uniform Launch { HistoryLaunch launch; };
+#include "DenoisePixels.glsl"
 
-bool isInside(ivec2 pixel) {
-    return pixel.x >= 0 && pixel.y >= 0 && pixel.x < int(launch.width) && pixel.y < int(launch.height);
-}
-uint pixelIndex(ivec2 pixel) {
-    return uint(pixel.y) * launch.width + uint(pixel.x);
-}
-uint pixelCount() {
-    return launch.width * launch.height;
-}
 
 // Samples of a half that the picture has in a pixel. Of a picture that is one the pixels are those of both halves in
 // turn, as squares of a chessboard: each half is a picture then, and both stay independent.

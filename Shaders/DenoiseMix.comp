@@ -56,8 +56,10 @@ void main() {
     if (isInside(pixel)) {
         vec4 shares = shareOfChoices(pixel);
         launch.values.at[pixelIndex(pixel)] = shares;
-        DenoiseMix mix = mixAt(shares, pixel);
-        sharedMix[lane] = vec2(mix.gain, mix.change);
+        if (launch.candidates > kRawCandidate) { // else nothing is mixed
+            DenoiseMix mix = mixAt(shares, pixel);
+            sharedMix[lane] = vec2(mix.gain, mix.change);
+        }
     }
     for (uint other = kGroupSize / 2u; other > 0u; other /= 2u) {
         barrier();

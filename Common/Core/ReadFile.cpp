@@ -82,6 +82,11 @@ std::ifstream openOfSize(const std::filesystem::path& path, std::uint64_t limit,
 
 } // namespace
 
+bool isFile(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored);
+}
+
 std::ifstream openFile(const std::filesystem::path& path, std::uint64_t limit) {
     std::uintmax_t size = 0;
     return openOfSize(path, limit, size);

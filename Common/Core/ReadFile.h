@@ -25,6 +25,9 @@ class ReadsBelow {
     const ReadsBelow* outer_;
 };
 
+// Whether there is a regular file; also where nobody may read it.
+bool isFile(const std::filesystem::path& path);
+
 // Whether nothing on this thread keeps readFile() from the file; whether it exists is another question.
 bool mayRead(const std::filesystem::path& path);
 

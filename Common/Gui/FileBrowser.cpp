@@ -8,6 +8,7 @@
 
 #include "Common/Core/Paths.h"
 #include "Common/Core/Printable.h"
+#include "Common/Core/TextSearch.h"
 #include "Common/Gui/Icons.h"
 #include "Common/Gui/TextFit.h"
 #include "Common/Gui/Widgets.h"

@@ -1,7 +1,6 @@
 #include "Common/Gui/TextFit.h"
 
 #include <algorithm>
-#include <cctype>
 
 namespace rt::gui {
 
@@ -28,13 +27,6 @@ std::vector<std::string> elidedLines(const std::string& text, float width, std::
     }
     if (from < text.size()) lines.push_back(elided(text.substr(from), width, widthOf));
     return lines;
-}
-
-bool contains(std::string_view text, std::string_view part) {
-    const auto same = [](char a, char b) {
-        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-    };
-    return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
 } // namespace rt::gui

@@ -25,11 +25,12 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
+#include "Common/Core/Primaries.h"
 #include "Common/Core/Printable.h"
 #include "Common/Image/Codecs.h"
+#include "Common/Image/ColorMatrix.h"
 #include "Common/Image/ExrHeader.h"
 #include "Common/Image/ExrLayers.h"
-#include "Common/Image/Primaries.h"
 
 namespace rt::image {
 

@@ -25,9 +25,10 @@
 #include <glm/mat3x3.hpp>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Primaries.h"
 #include "Common/Core/Printable.h"
 #include "Common/Image/Codecs.h"
-#include "Common/Image/Primaries.h"
+#include "Common/Image/ColorMatrix.h"
 
 namespace rt::image {
 

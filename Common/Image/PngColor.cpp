@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "Common/Core/Primaries.h"
 #include "Common/Core/Printable.h"
-#include "Common/Image/Primaries.h"
 
 namespace rt::image {
 

@@ -7,7 +7,7 @@
 namespace rt::probe {
 namespace {
 
-constexpr double kLeast = 5; // expected counts in a pool
+constexpr double kMinExpected = 5; // expected counts in a pool
 constexpr int kMaxTerms = 10000;
 
 // The regularised lower incomplete gamma function by its series, for x < a + 1.
@@ -62,7 +62,7 @@ std::optional<ChiSquare> chiSquare(std::span<const double> counts, std::span<con
         count += counts[i];
         expectation += expectations[i] * scale;
         left -= expectations[i] * scale;
-        if (expectation >= kLeast && left >= kLeast) close();
+        if (expectation >= kMinExpected && left >= kMinExpected) close();
     }
     if (expectation > 0) close();
     if (pools < 2) return std::nullopt;

@@ -18,7 +18,7 @@ class SceneFormulas {
   public:
     // Settles the size of the image in the options. Throws UsageError and InputError.
     SceneFormulas(std::shared_ptr<const scene::CompiledScene> compiled, app::Options options, double seconds);
-    // The same scene with other options, which would have compiled it alike. Rays share the structure.
+    // This scene with other options, which would have compiled it alike. Both share the acceleration structure.
     std::shared_ptr<SceneFormulas> with(app::Options options) const;
 
     const std::shared_ptr<const scene::CompiledScene>& compiled() const { return compiled_; }

@@ -53,8 +53,8 @@ class PictureDenoiser {
     virtual bool needsHalves() const { return true; }
 
     // The film as it is, which stays as it is. None where `cancel` became true, and where the film has no two halves of
-    // its samples that are needed, or lacks one in some pixel as yet. Returns within 100 ms once `cancel` is true; what it has made of
-    // features by then is kept for the next call. Throws what the engine throws.
+    // its samples that are needed, or lacks one in some pixel as yet. Returns within 100 ms once `cancel` is true; what
+    // it has made of features by then is kept for the next call. Throws what the engine throws.
     virtual std::optional<DenoisedPicture> denoise(const DenoiseRequest& request, const std::atomic<bool>& cancel) = 0;
 };
 

@@ -15,14 +15,22 @@ bool isWithinLimits(const Affine& map) {
     return largest <= kLargest;
 }
 
-Transform toTransform(const Affine& map) {
+bool isIdentity(const Affine& map) {
+    return map.linear == glm::dmat3(1) && map.offset == glm::dvec3(0);
+}
+
+Matrix toMatrix(const Affine& map) {
     Matrix matrix;
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 3; ++column)
             matrix.rows[static_cast<std::size_t>(4 * row + column)] = map.linear[column][row];
         matrix.rows[static_cast<std::size_t>(4 * row + 3)] = map.offset[row];
     }
-    return {matrix};
+    return matrix;
+}
+
+Transform toTransform(const Affine& map) {
+    return {toMatrix(map)};
 }
 
 } // namespace rt::scene

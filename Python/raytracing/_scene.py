@@ -261,8 +261,8 @@ class Scene(collections.abc.MutableMapping):
 
 
 def load(source: Source) -> Scene:
-    """A scene: the id of a built-in one (see scenes()), a file (.json, .obj, .gltf, .glb, .pbrt), or a dict that is laid out
-    like a scene file. A dict is not copied: edit it, or the scene, and render again. A name that is neither an id nor a
+    """A scene: the id of a built-in one (see scenes()), a file (.json, .obj, .gltf, .glb, .pbrt), or a dict that is
+    laid out like a scene file. A dict is not copied: edit it, or the scene, and render again. A name that is neither an id nor a
     file is an error at once; what is in a file or a dict is read when it is needed."""
     scene = Scene(source)
     is_name = isinstance(source, (str, os.PathLike)) and not os.path.exists(source)

@@ -1,5 +1,5 @@
-"""A hook of mkdocs: pictures of the guide's notebooks, which ./build.sh guide makes in build/guide, stand where its pages
-say <!-- picture NAME: caption -->. Where they were not made a line says what would be there."""
+"""A hook of mkdocs: pictures of the guide's notebooks, which ./build.sh guide makes in build/guide, stand where its
+pages say <!-- picture NAME: caption -->. Where they were not made a line says what would be there."""
 
 import pathlib
 import re

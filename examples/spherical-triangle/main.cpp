@@ -1,6 +1,7 @@
-// A triangular lamp seen from a point covers a triangle on the sphere of directions. This program draws directions that
-// are uniform in it, by Arvo's map of the unit square, checks what it drew, and plots it: each direction is a dot on a
-// map of the upper hemisphere (seen from above, the horizon is the circle), coloured by where in the square it came from.
+// A triangular lamp seen from a point covers a triangle on the sphere of directions. This program draws directions
+// that are uniform in it, by Arvo's map of the unit square, checks what it drew, and plots it: each direction is a
+// dot on a map of the upper hemisphere (seen from above, the horizon is the circle), coloured by where in the square
+// it came from.
 //
 //     ./spherical-triangle [PLOT.png]
 #include <algorithm>

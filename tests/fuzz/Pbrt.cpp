@@ -1,5 +1,5 @@
-// Scenes of pbrt: an input is f.pbrt, which may include itself and a.ply, or, behind a byte that is 0, a.ply. Scenes are
-// written and read again, not compiled: scenes have their own target.
+// Scenes of pbrt: an input is f.pbrt, which may include itself and a.ply, or, behind a byte that is 0, a.ply. Scenes
+// are written and read again, not compiled: scenes have their own target.
 #include "Common/Scene/Json/SceneJson.h"
 #include "Common/Scene/Pbrt/PbrtLoader.h"
 #include "tests/fuzz/Fuzz.h"

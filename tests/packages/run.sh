@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Tries the packages that ./build.sh package made, in a bare system of a release: the archive of one folder runs where
-# little is installed; the programs' .deb installs, renders on CPU and GPU, opens its windows, and is upgraded; with those
-# beside it Python renders the same picture and the examples are built; all of them leave nothing when they are purged.
+# little is installed; the programs' .deb installs, renders on CPU and GPU, opens its windows, and is upgraded; with
+# those beside it Python renders the same picture and the examples are built; all of them leave nothing when they are purged.
 #   tests/packages/run.sh FOLDER [RELEASE]   as root; RELEASE: that of this machine, which the packages were built on
 # The bare system is made once, in FOLDER/RELEASE.bare, and copied for each try. Pictures of the windows stay in FOLDER.
 # Prints a line for each thing tried. Exit code 0: all of them passed.

@@ -13,9 +13,10 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
+#include "Common/Core/Primaries.h"
 #include "Common/Image/Codecs.h"
+#include "Common/Image/ColorMatrix.h"
 #include "Common/Image/PngColor.h"
-#include "Common/Image/Primaries.h"
 #include "tests/unit/ExrFiles.h"
 
 namespace rt::image {

@@ -1,8 +1,8 @@
 #include "Common/App/Interactive/ObjectList.h"
 
-#include <algorithm>
-#include <cctype>
 #include <string_view>
+
+#include "Common/Core/TextSearch.h"
 
 namespace rt::app {
 namespace {
@@ -22,11 +22,6 @@ struct KindName {
     const char* operator()(const scene::GroupDesc&) const { return "Group"; }
     const char* operator()(const scene::InstanceDesc&) const { return "Instance"; }
 };
-
-bool contains(std::string_view text, std::string_view lowerCase) {
-    const auto isEqual = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
-    return std::search(text.begin(), text.end(), lowerCase.begin(), lowerCase.end(), isEqual) != text.end();
-}
 
 const std::string* referredName(const scene::ObjectDesc& object) {
     if (const auto* instance = std::get_if<scene::InstanceDesc>(&object.shape)) return &instance->prototype;
@@ -65,7 +60,6 @@ void ObjectList::build(const scene::SceneDesc& scene, const std::set<scene::Obje
     rows_.clear();
     found_.clear();
     Building building{open, search, {}};
-    for (char& letter : building.search) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
     add(scene.objects, building);
 }
 

@@ -11,7 +11,7 @@
 namespace rt::app {
 namespace {
 
-constexpr double kLeastScale = 1e-3;
+constexpr double kMinScale = 1e-3;
 constexpr double kTooSmall = 1e-9; // to divide by
 
 glm::dvec3 unit(int axis) {
@@ -78,7 +78,7 @@ std::optional<scene::Transform> ObjectTool::turn(const ViewProjection& view, con
 std::optional<scene::Transform> ObjectTool::scale(const ViewProjection& view, const glm::dvec2& place) const {
     const auto from = arm(view, pivot_, start_), to = arm(view, pivot_, place);
     if (!from || !to || !(glm::length(*from) > kTooSmall)) return std::nullopt;
-    const double factor = std::fmax(kLeastScale, glm::length(*to) / glm::length(*from));
+    const double factor = std::fmax(kMinScale, glm::length(*to) / glm::length(*from));
     glm::dvec3 factors(factor);
     if (axis_) factors = glm::dvec3(1) + (factor - 1) * unit(*axis_);
     return scene::scaled(pivot_, factors);

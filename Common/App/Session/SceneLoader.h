@@ -42,7 +42,7 @@ class SceneLoader {
     // From now on the scene that was handed over last is edited: this is its description.
     void startEditing(scene::SceneDesc scene);
     void stopEditing(); // forgets it
-    // The same edits that the window's own description has got; what they make is compiled and handed over. What is
+    // Edits that the window's own description has got; what they make of this one is compiled and handed over. What is
     // being compiled of the edits before is called off, unless these are of a gesture: a drag would never show
     // anything.
     // Returns SceneRequest::edits of what they make.

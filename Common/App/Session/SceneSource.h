@@ -9,8 +9,8 @@
 
 namespace rt::app {
 
-// A .json scene file, an .obj, .gltf, .glb or .pbrt file, by a path of its own or within the assets' folder "scenes", or
-// the id of a built-in scene. A model that brings no light stands in a studio (Studio.h). Throws InputError.
+// A .json scene file, an .obj, .gltf, .glb or .pbrt file, by a path of its own or within the assets' folder "scenes",
+// or the id of a built-in scene. A model that brings no light stands in a studio (Studio.h). Throws InputError.
 scene::SceneDesc loadScene(const std::string& source);
 
 // With its textures; with generated ones in place of files that have a stand-in, where asked for. Throws InputError.
@@ -29,7 +29,7 @@ struct SceneRequest {
 std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request);
 // Of a scene that is at hand, in place of what the request's source names.
 std::shared_ptr<const scene::CompiledScene> compile(scene::SceneDesc desc, const SceneRequest& request);
-// Likewise, of one that is kept, as it is edited.
+// Of a description that is edited and stays: in place of what the request's source names.
 std::shared_ptr<const scene::CompiledScene> compileKept(const scene::SceneDesc& desc, const SceneRequest& request);
 
 // The camera of a pose that may leave parts of it to the scene. Throws UsageError.

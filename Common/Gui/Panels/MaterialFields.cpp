@@ -12,6 +12,11 @@
 namespace rt::gui {
 namespace {
 
+// Null where the table says nothing.
+const char* tipOf(const char* help) {
+    return help[0] != '\0' ? help : nullptr;
+}
+
 // "base_color" as people read it: "Base color".
 std::string titled(const char* name) {
     std::string title = name;
@@ -37,7 +42,7 @@ bool numberField(const std::string& label, const char* help, double& value, doub
 struct PrincipledField {
     const scene::SceneParameter& parameter;
     const std::string label = titled(parameter.name);
-    const char* const help = parameter.help[0] != '\0' ? parameter.help : nullptr;
+    const char* const help = tipOf(parameter.help);
 
     bool operator()(scene::NumberOrTexture& value) const {
         if (value.texture.empty()) return numberField(label, help, value.factor, 0, 1);
@@ -60,11 +65,11 @@ bool drawNumbers(scene::MaterialDesc& material) {
     bool changed = false;
     const scene::MaterialType& type = scene::materialType(material.kind);
     if (const scene::MaterialParameter* color = colorOf(type))
-        changed |= colorField(titled(color->name), color->help[0] != '\0' ? color->help : nullptr, material.albedo);
+        changed |= colorField(titled(color->name), tipOf(color->help), material.albedo);
     forEachNumber(type, [&](const scene::MaterialParameter& parameter, std::size_t i) {
         double value = material.parameters[i].value_or(parameter.usual);
-        const char* help = parameter.help[0] != '\0' ? parameter.help : nullptr;
-        if (!numberField(titled(parameter.name), help, value, parameter.minimum, parameter.maximum)) return;
+        if (!numberField(titled(parameter.name), tipOf(parameter.help), value, parameter.minimum, parameter.maximum))
+            return;
         material.parameters[i] = value;
         changed = true;
     });

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "Common/Core/Printable.h"
+#include "Common/Core/TextSearch.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/TextFit.h"
 #include "Common/Gui/Widgets.h"

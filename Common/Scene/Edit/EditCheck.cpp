@@ -256,32 +256,21 @@ struct Check {
         for (std::size_t i = 0; i < edit.value->size(); ++i)
             ObjectCheck(scene, inside).check((*edit.value)[i], place + "/" + std::to_string(i));
     }
-    void operator()(const SetCamera& edit) const {
-        SceneDesc small;
-        small.camera = edit.value;
-        checkByReader(small, "/camera", "/camera");
-    }
-    void operator()(const SetBackground& edit) const {
-        SceneDesc small;
-        small.background = edit.value;
-        checkByReader(small, "/background", "/background");
-    }
-    void operator()(const SetRenderDefaults& edit) const {
-        SceneDesc small;
-        small.render = edit.value;
-        checkByReader(small, "/render", "/render");
-    }
+    void operator()(const SetCamera& edit) const { checkPart(&SceneDesc::camera, edit.value, "/camera"); }
+    void operator()(const SetBackground& edit) const { checkPart(&SceneDesc::background, edit.value, "/background"); }
+    void operator()(const SetRenderDefaults& edit) const { checkPart(&SceneDesc::render, edit.value, "/render"); }
     void operator()(const SetTargets& edit) const {
-        SceneDesc small;
-        small.importanceTargets = edit.value;
-        checkByReader(small, "/importance_targets", "/importance_targets");
+        checkPart(&SceneDesc::importanceTargets, edit.value, "/importance_targets");
     }
-    void operator()(const SetTitle& edit) const {
-        SceneDesc small;
-        small.title = edit.value;
-        checkByReader(small, "/title", "/title");
-    }
+    void operator()(const SetTitle& edit) const { checkPart(&SceneDesc::title, edit.value, "/title"); }
 
+    // A member of the description, in a scene that has nothing else.
+    template <typename Member, typename Part>
+    static void checkPart(Member part, const Part& value, const std::string& place) {
+        SceneDesc small;
+        small.*part = value;
+        checkByReader(small, place, place);
+    }
     static bool isMeshFile(const ObjectDesc& object) {
         const auto* mesh = std::get_if<MeshDesc>(&object.shape);
         return mesh != nullptr && std::holds_alternative<MeshFile>(mesh->source);

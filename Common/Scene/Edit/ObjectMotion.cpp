@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "Common/Scene/Placing.h"
+
 namespace rt::scene {
 
 namespace {
@@ -99,19 +101,6 @@ struct Mapping {
     std::optional<ObjectDesc> operator()(const InstanceDesc&) const { return std::nullopt; }
 };
 
-Matrix matrixOf(const Affine& map) {
-    Matrix matrix;
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 4; ++column)
-            matrix.rows[static_cast<std::size_t>(4 * row + column)] =
-                column < 3 ? map.linear[column][row] : map.offset[row];
-    return matrix;
-}
-
-bool mapsNothing(const Affine& map) {
-    return map.linear == glm::dmat3(1.0) && map.offset == glm::dvec3(0);
-}
-
 // Two moves after each other are one, and so are two matrices.
 void append(Transform& transform, const Transform& steps) {
     for (const auto& step : steps) {
@@ -120,7 +109,7 @@ void append(Transform& transform, const Transform& steps) {
         if (const auto* more = std::get_if<Translate>(&step); more != nullptr && offset != nullptr)
             offset->offset += more->offset;
         else if (const auto* outer = std::get_if<Matrix>(&step); outer != nullptr && matrix != nullptr)
-            *matrix = matrixOf(toAffine({*outer}) * toAffine({*matrix}));
+            *matrix = toMatrix(toAffine({*outer}) * toAffine({*matrix}));
         else
             transform.push_back(step);
     }
@@ -136,7 +125,7 @@ SceneEdit moved(const SceneDesc& scene, const ObjectPath& path, const Transform&
     const ObjectDesc& object = *findObject(scene, path);
     const Affine groups = groupTransform(scene, path);
     Transform inside = steps;
-    if (!mapsNothing(groups)) inside = {matrixOf(inverse(groups).value() * toAffine(steps) * groups)};
+    if (!isIdentity(groups)) inside = {toMatrix(inverse(groups).value() * toAffine(steps) * groups)};
     if (auto changed = mapped(object, toAffine(inside))) return SetObject{path, std::move(*changed)};
     const Transform* own = transformOf(object);
     if (own == nullptr) return WrapObject{path, inside};

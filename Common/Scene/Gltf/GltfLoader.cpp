@@ -36,10 +36,6 @@ namespace rt::scene {
 
 namespace {
 
-bool isIdentity(const Affine& map) {
-    return map.linear == glm::dmat3(1) && map.offset == glm::dvec3(0);
-}
-
 // With all that is compressed in it.
 GltfFile readWhole(const std::filesystem::path& path) {
     GltfFile file = readGltf(path);

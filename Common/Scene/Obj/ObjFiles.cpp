@@ -4,6 +4,7 @@
 #include <system_error>
 #include <vector>
 
+#include "Common/Core/ReadFile.h"
 #include "Common/Scene/Obj/ObjText.h"
 
 namespace rt::scene {
@@ -11,11 +12,6 @@ namespace rt::scene {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool isFile(const fs::path& path) {
-    std::error_code ignored;
-    return fs::is_regular_file(path, ignored);
-}
 
 fs::path portable(std::string_view name) {
     std::string path(name);

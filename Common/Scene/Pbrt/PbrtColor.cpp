@@ -12,10 +12,10 @@ namespace rt::scene {
 namespace {
 
 constexpr PbrtColorSpace kSpaces[] = {
-    {"srgb", {0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}},
-    {"rec2020", {0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, {0.3127, 0.3290}},
-    {"dci-p3", {0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, {0.3127, 0.3290}},
-    {"aces2065-1", {0.7347, 0.2653}, {0.0, 1.0}, {0.0001, -0.0770}, {0.32168, 0.33767}}};
+    {"srgb", kRec709},
+    {"rec2020", {{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, {0.3127, 0.3290}}},
+    {"dci-p3", {{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, {0.3127, 0.3290}}},
+    {"aces2065-1", {{0.7347, 0.2653}, {0.0, 1.0}, {0.0001, -0.0770}, {0.32168, 0.33767}}}};
 
 // CIE 1931's colour of light at a wavelength, fitted: C. Wyman, P.-P. Sloan, P. Shirley, Simple Analytic Approximations
 // to the CIE XYZ Color Matching Functions, JCGT 2(2), 2013, equation 4. Sums of Gaussians that are wider on one side.
@@ -33,7 +33,7 @@ glm::dvec3 colorMatch(double nm) {
 constexpr double kFirstNm = 360, kLastNm = 830;
 
 template <class Spectrum>
-glm::dvec3 toXyz(const Spectrum& spectrum) {
+glm::dvec3 xyzOfSpectrum(const Spectrum& spectrum) {
     glm::dvec3 sum(0);
     for (double nm = kFirstNm; nm <= kLastNm; nm += 1) sum += spectrum(nm) * colorMatch(nm);
     return sum;
@@ -53,20 +53,8 @@ double daylight(double nm) {
     return kD65[index] + share * (kD65[index + 1] - kD65[index]);
 }
 
-glm::dvec3 xyzOf(double x, double y) {
-    return {x / y, 1, (1 - x - y) / y};
-}
-
-// From RGB to XYZ: columns are the primaries, so long that (1,1,1) is the white of luminance 1.
-glm::dmat3 toXyzMatrix(const PbrtColorSpace& space) {
-    const auto column = [](const double(&xy)[2]) { return glm::dvec3(xy[0], xy[1], 1 - xy[0] - xy[1]); };
-    const glm::dmat3 primaries(column(space.red), column(space.green), column(space.blue));
-    const glm::dvec3 lengths = glm::inverse(primaries) * xyzOf(space.white[0], space.white[1]);
-    return {lengths.x * primaries[0], lengths.y * primaries[1], lengths.z * primaries[2]};
-}
-
 const glm::dmat3& xyzToRgb() {
-    static const glm::dmat3 matrix = glm::inverse(toXyzMatrix(kSpaces[0]));
+    static const glm::dmat3 matrix = xyzToRec709();
     return matrix;
 }
 
@@ -101,7 +89,7 @@ const PbrtColorSpace* pbrtColorSpace(std::string_view name) {
 
 glm::dvec3 pbrtLightOf(const PbrtColorSpace* space, const glm::dvec3& rgb) {
     if (!space || space == &kSpaces[0]) return rgb;
-    return fromXyz(toXyzMatrix(*space) * rgb);
+    return fromXyz(*toXyz(space->primaries) * rgb);
 }
 
 glm::dvec3 pbrtReflectanceOf(const PbrtColorSpace* space, const glm::dvec3& rgb) {
@@ -110,12 +98,12 @@ glm::dvec3 pbrtReflectanceOf(const PbrtColorSpace* space, const glm::dvec3& rgb)
 }
 
 glm::dvec3 pbrtLightOf(const PbrtSpectrum& spectrum) {
-    const glm::dvec3 xyz = toXyz([&](double nm) { return spectrum.at(nm); });
+    const glm::dvec3 xyz = xyzOfSpectrum([&](double nm) { return spectrum.at(nm); });
     return xyz.y > 0 ? fromXyz(xyz / xyz.y) : glm::dvec3(0);
 }
 
 glm::dvec3 pbrtLightOf(double x, double y) {
-    return fromXyz(xyzOf(x, y));
+    return fromXyz(xyzOf({x, y}));
 }
 
 glm::dvec3 pbrtBlackbody(double kelvin) {
@@ -125,7 +113,7 @@ glm::dvec3 pbrtBlackbody(double kelvin) {
         const double x = kC2 / (nm * kelvin), middle = kC2 / (560 * kelvin);
         return std::pow(560 / nm, 5) * std::exp(middle - x) * std::expm1(-middle) / std::expm1(-x);
     };
-    const glm::dvec3 xyz = toXyz(planck);
+    const glm::dvec3 xyz = xyzOfSpectrum(planck);
     return xyz.y > 0 && std::isfinite(xyz.x + xyz.y + xyz.z) ? fromXyz(xyz / xyz.y) : glm::dvec3(0);
 }
 
@@ -137,8 +125,8 @@ std::optional<glm::dvec3> pbrtIlluminant(std::string_view name) {
 
 // White is divided by, so that what the fit and the steps are off by does not tint it.
 glm::dvec3 pbrtReflectanceOf(const PbrtSpectrum& spectrum) {
-    static const glm::dvec3 white = xyzToRgb() * toXyz(daylight);
-    const glm::dvec3 rgb = xyzToRgb() * toXyz([&](double nm) { return spectrum.at(nm) * daylight(nm); });
+    static const glm::dvec3 white = xyzToRgb() * xyzOfSpectrum(daylight);
+    const glm::dvec3 rgb = xyzToRgb() * xyzOfSpectrum([&](double nm) { return spectrum.at(nm) * daylight(nm); });
     return glm::clamp(rgb / white, 0.0, 1.0);
 }
 

@@ -5,6 +5,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "Common/Core/Primaries.h"
 #include "Common/Scene/Pbrt/PbrtSpectrum.h"
 
 namespace rt::scene {
@@ -12,7 +13,7 @@ namespace rt::scene {
 // What "rgb" values are in.
 struct PbrtColorSpace {
     std::string_view name;
-    double red[2], green[2], blue[2], white[2]; // chromaticities x, y of CIE 1931
+    Primaries primaries;
 };
 
 extern const char* const kPbrtColorSpaces;                                        // all names, for messages

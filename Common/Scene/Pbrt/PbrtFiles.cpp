@@ -1,7 +1,6 @@
 #include "Common/Scene/Pbrt/PbrtFiles.h"
 
 #include <algorithm>
-#include <system_error>
 
 #include "Common/Core/OtherCase.h"
 #include "Common/Core/Printable.h"
@@ -9,16 +8,7 @@
 
 namespace rt::scene {
 
-namespace {
-
 namespace fs = std::filesystem;
-
-bool isThere(const fs::path& path) {
-    std::error_code none;
-    return fs::is_regular_file(path, none);
-}
-
-} // namespace
 
 PbrtFiles::PbrtFiles(const fs::path& scene) : folder_(fs::absolute(scene).parent_path()) {}
 
@@ -32,7 +22,7 @@ fs::path PbrtFiles::locate(const std::string& name, const PbrtPlace& place) {
     for (const fs::path& folder : {folder_, fs::absolute(fs::path(*place.file)).parent_path()}) {
         const fs::path path = (folder / file).lexically_normal();
         // Of files that must not be read nobody learns whether they exist: they are refused when they are opened.
-        if (!mayRead(path) || isThere(path)) return path;
+        if (!mayRead(path) || isFile(path)) return path;
         if (first.empty()) first = path;
     }
     fs::path other = findInOtherCase(first);
@@ -43,7 +33,7 @@ fs::path PbrtFiles::locate(const std::string& name, const PbrtPlace& place) {
 
 fs::path PbrtFiles::existing(const std::string& name, const PbrtPlace& place) {
     fs::path path = locate(name, place);
-    if (mayRead(path) && !isThere(path))
+    if (mayRead(path) && !isFile(path))
         place.fail('"' + printable(name, 200) + "\": must be an existing file; looked for at " + path.string());
     return path;
 }

@@ -80,9 +80,9 @@ void PbrtLights::point(const PbrtParameters& parameters, const Affine& toWorld) 
 }
 
 void PbrtLights::addSpot(const PbrtParameters& parameters, SpotLightDesc light) {
-    constexpr double kLeastAngle = 1e-3; // degrees, as scene files have it
+    constexpr double kMinAngle = 1e-3; // degrees, as scene files have it
     if (light.outerAngle > 90) notices_.add("spot lights of more than 90 degrees end there", parameters.place);
-    light.outerAngle = std::clamp(light.outerAngle, kLeastAngle, 90.0);
+    light.outerAngle = std::clamp(light.outerAngle, kMinAngle, 90.0);
     light.innerAngle = std::clamp(light.innerAngle, 0.0, light.outerAngle * (1 - 1e-9));
     light.intensity = bounded(light.intensity);
     scene_.objects.push_back({light});

@@ -19,7 +19,7 @@ namespace {
 struct PbrtForm {
     std::string_view name;
     PbrtKeyword keyword;
-    std::size_t leastTexts = 0, mostTexts = 0, numbers = 0;
+    std::size_t minTexts = 0, maxTexts = 0, numbers = 0;
     bool hasParameters = false;
 };
 
@@ -117,7 +117,7 @@ bool PbrtParser::next() {
         lexer().next();
         return true;
     }
-    readTexts(form.leastTexts, form.mostTexts);
+    readTexts(form.minTexts, form.maxTexts);
     readNumbers(form.numbers);
     directive_.parameters.what = form.name;
     if (!directive_.texts.empty()) directive_.parameters.what += " \"" + printable(directive_.texts.back(), 100) + '"';

@@ -189,7 +189,7 @@ class PlyReader {
             else if (keyword != "comment" && keyword != "obj_info" && !text.empty())
                 in_.fail('"' + printable(text, 100) +
                          "\" is no line of a header; known are format, element, property, comment, obj_info");
-            else if (++emptyLines_ > kMostComments)
+            else if (++emptyLines_ > kMaxComments)
                 in_.fail("its header has no end_header");
         }
         if (!hasFormat_) in_.fail("its header has no format");
@@ -210,7 +210,7 @@ class PlyReader {
         const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
         if (error != std::errc() || end != count.data() + count.size())
             in_.fail("element \"" + printable(element.name, 100) + "\": its number must be whole and not negative");
-        if (elements_.size() == kMostElements) in_.fail("its header has too many elements");
+        if (elements_.size() == kMaxElements) in_.fail("its header has too many elements");
         elements_.push_back(std::move(element));
     }
 
@@ -236,7 +236,7 @@ class PlyReader {
             for (const PlyRoleName& known : kPlyRoleNames)
                 if (known.name == name) property.role = known.role;
         elements_.back().properties.push_back(property);
-        if (elements_.back().properties.size() > kMostElements) in_.fail("an element has too many properties");
+        if (elements_.back().properties.size() > kMaxElements) in_.fail("an element has too many properties");
     }
 
     std::uint64_t listCount(const PlyProperty& property) {
@@ -313,7 +313,7 @@ class PlyReader {
         }
     }
 
-    static constexpr std::size_t kMostElements = 100, kMostComments = 100000;
+    static constexpr std::size_t kMaxElements = 100, kMaxComments = 100000;
 
     PlyInput in_;
     PbrtBudget& budget_;

@@ -177,10 +177,10 @@ PbrtShape PbrtShapes::patches(const PbrtParameters& parameters, bool isReversed)
 }
 
 MeshData PbrtShapes::subdivided(const PbrtParameters& parameters) {
-    constexpr int kMostLevels = 10;
+    constexpr int kMaxLevels = 10;
     parameters.find("scheme");
     const int levels = parameters.integer("levels", 3);
-    if (levels < 0 || levels > kMostLevels) parameters.fail("\"levels\" must be from 0 to 10");
+    if (levels < 0 || levels > kMaxLevels) parameters.fail("\"levels\" must be from 0 to 10");
     MeshData mesh = triangles(parameters);
     budget_.spend(mesh.triangles.size() << (2 * levels), parameters.place);
     mesh.normals.clear();

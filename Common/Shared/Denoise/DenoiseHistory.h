@@ -72,9 +72,9 @@ RT_FN bool isHistoryEdge(vec2 darkest, vec2 brightest) {
 }
 
 // How far the history of a half is to be trusted, by the other half's difference of new samples from its own history:
-// its mean over a square of pixels, and that of its square. Noise cancels in the first, what moves with the camera, as in
-// mirrors, does not. Where all samples have missed the light, as noise may, that half loses its history but none of its
-// energy, since its own samples have had no say.
+// its mean over a square of pixels, and that of its square. Noise cancels in the first, what moves with the camera,
+// as in mirrors, does not. Where all samples have missed the light, as noise may, that half loses its history but
+// none of its energy, since its own samples have had no say.
 RT_FN float historyTrust(float mean, float meanSquare) {
     float share = meanSquare > 0.0f ? mean * mean / meanSquare : 0.0f;
     return clamp((kHistoryRefusedShare - share) * (1.0f / (kHistoryRefusedShare - kHistoryTrustedShare)), 0.0f, 1.0f);

@@ -1,10 +1,10 @@
 // How much of the filter a picture keeps. What details a filter spoils hardly depends on the number of samples, while
 // noise falls with it: from some number on, a part of the raw picture makes the mean of both better than either.
 //
-// A picture w filtered + (1 - w) raw is least off for w = (errorOfRaw - errorOfFiltered + change^2) / (2 change^2), where
-// errors are expected squared ones and change is filtered - raw, as the expectation of change^2 is the sum of both errors
-// less twice what they have in common (Bates and Granger 1969, "The Combination of Forecasts"). Both terms are summed
-// over the pixels of a cell, in units of relMSE, since those of a pixel are mostly noise.
+// A picture w filtered + (1 - w) raw is least off for w = (errorOfRaw - errorOfFiltered + change^2) / (2 change^2),
+// where errors are expected squared ones and change is filtered - raw, as the expectation of change^2 is the sum of
+// both errors less twice what they have in common (Bates and Granger 1969, "The Combination of Forecasts"). Both
+// terms are summed over the pixels of a cell, in units of relMSE, since those of a pixel are mostly noise.
 #ifndef RT_SHARED_DENOISE_MIX_H
 #define RT_SHARED_DENOISE_MIX_H
 #include "Common/Shared/Base/Shim.h"

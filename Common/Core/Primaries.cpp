@@ -1,4 +1,4 @@
-#include "Common/Image/Primaries.h"
+#include "Common/Core/Primaries.h"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
-namespace rt::image {
+namespace rt {
 
 namespace {
 
@@ -15,11 +15,6 @@ using glm::dvec2;
 using glm::dvec3;
 
 constexpr double kRounding = 5e-4; // of chromaticities in files
-
-// XYZ over Y.
-dvec3 xyzOf(const dvec2& xy) {
-    return dvec3(xy.x / xy.y, 1, (1 - xy.x - xy.y) / xy.y);
-}
 
 bool isFinite(const dmat3& m) {
     bool all = true;
@@ -44,6 +39,10 @@ bool areSame(const Primaries& a, const Primaries& b) {
     return near(a.red, b.red) && near(a.green, b.green) && near(a.blue, b.blue) && near(a.white, b.white);
 }
 
+dvec3 xyzOf(const dvec2& xy) {
+    return dvec3(xy.x / xy.y, 1, (1 - xy.x - xy.y) / xy.y);
+}
+
 std::optional<dmat3> toXyz(const Primaries& p) {
     // Primaries by X + Y + Z = 1, as one of them, of blue light, may have no luminance.
     const auto column = [](const dvec2& xy) { return dvec3(xy.x, xy.y, 1 - xy.x - xy.y); };
@@ -65,11 +64,4 @@ std::optional<dmat3> toRec709(const Primaries& primaries, White white) {
     return isFinite(matrix) ? std::optional(matrix) : std::nullopt;
 }
 
-void multiplyColors(Image& image, const dmat3& matrix) {
-    for (std::size_t i = 0; i + 2 < image.data.size(); i += 3) {
-        const dvec3 color = matrix * dvec3(image.data[i], image.data[i + 1], image.data[i + 2]);
-        for (int c = 0; c < 3; ++c) image.data[i + static_cast<std::size_t>(c)] = static_cast<float>(color[c]);
-    }
-}
-
-} // namespace rt::image
+} // namespace rt

@@ -1,13 +1,12 @@
-// Colours of files that state their primaries, as linear radiance with those of Rec. 709, which everything here has.
+// Colours of other primaries as linear radiance with those of Rec. 709, which everything here has.
 #pragma once
 #include <optional>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
-#include "Common/Image/Image.h"
-
-namespace rt::image {
+namespace rt {
 
 // CIE (x, y) chromaticities.
 struct Primaries {
@@ -19,6 +18,7 @@ inline constexpr Primaries kRec709{{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.
 // Whether both are the same but for how files round them.
 bool areSame(const Primaries& a, const Primaries& b);
 
+glm::dvec3 xyzOf(const glm::dvec2& xy); // with Y = 1
 // From RGB to XYZ, with Y = 1 for white; nothing where the primaries span no colours.
 std::optional<glm::dmat3> toXyz(const Primaries& primaries);
 
@@ -27,7 +27,4 @@ enum class White { Kept, Adapted };
 std::optional<glm::dmat3> toRec709(const Primaries& primaries, White white);
 glm::dmat3 xyzToRec709();
 
-// Multiplies every pixel of three channels.
-void multiplyColors(Image& image, const glm::dmat3& matrix);
-
-} // namespace rt::image
+} // namespace rt
