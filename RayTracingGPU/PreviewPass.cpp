@@ -100,6 +100,9 @@ void PreviewPass::listDraws() {
     const scene::CompiledScene& s = scene_.compiled();
     std::vector<std::uint32_t> indices = strongestLights(s);
     launch_.lightCount = static_cast<std::uint32_t>(indices.size());
+    // Mesa 25.2 on processors loads what all invocations of a draw would load from one place even where
+    // a condition forbids it to all of them, as in a loop of no turn: such a place must be one of the array.
+    if (indices.empty()) indices.push_back(0);
     launch_.ambient = ambientOf(s);
     launch_.near = kNear;
     std::vector<std::vector<std::uint32_t>> instances(s.geometries.size());

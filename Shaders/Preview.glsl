@@ -42,8 +42,10 @@ vec3 unshadowedLight(Light light, vec3 position, vec3 normal) {
 // normal.
 vec3 skyLight(SceneRef scene, vec3 normal) {
     if (!has(kFeatures, kFeatureSky)) return vec3(0.0f);
-    if (has(kFeatures, kFeatureSkyImage) && constants.globals.skyLight != kNone) {
-        return loadLight(scene, constants.globals.skyLight).emission; // its mean
+    if (has(kFeatures, kFeatureSkyImage) && has(kFeatures, kFeatureLights) && constants.globals.skyLight != kNone) {
+        // Within the array whatever the condition says: see PreviewPass::listDraws().
+        uint light = min(constants.globals.skyLight, constants.globals.lightCount - 1u);
+        return loadLight(scene, light).emission; // its mean
     }
     return skyRadiance(kFeatures & ~kFeatureSkyImage, scene, normal * (2.0f / 3.0f));
 }
@@ -52,6 +54,7 @@ vec3 skyLight(SceneRef scene, vec3 normal) {
 // most of it from where the camera is, so that shapes show.
 vec3 incidentLight(SceneRef scene, vec3 position, vec3 normal, vec3 wo) {
     vec3 sum = (launch.ambient + skyLight(scene, normal)) * (0.5f + 0.5f * dot(normal, wo));
+    if (!has(kFeatures, kFeatureLights)) return sum;
     for (uint i = 0u; i < launch.lightCount; i++) {
         sum += unshadowedLight(loadLight(scene, launch.indices.at[i]), position, normal);
     }
