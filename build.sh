@@ -12,7 +12,7 @@ test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang clang-format cl
                vulkan-validationlayers xvfb xdotool libx11-dev assimp-testmodels zsh fish groff-base
                desktop-file-utils appstream shared-mime-info mkdocs)
 bench_packages=(libbenchmark-dev libembree-dev)
-compiler_packages=(g++-mingw-w64-x86-64-posix) # of other systems, and a library of C++ that has ranges
+compiler_packages=(g++-mingw-w64-x86-64-posix wine wine64) # of other systems, and a library of C++ that has ranges
 if grep -qs bookworm /etc/os-release; then
     compiler_packages+=(clang-16 libc++-16-dev libc++abi-16-dev)
 else
@@ -66,7 +66,8 @@ usage() {
 ./build.sh releases [RELEASE...]
                          as root: ./build.sh run and ./build.sh test on bare systems of each release that is promised
                          (or of some: bookworm, trixie, noble), made in build/releases; hours, for nights
-./build.sh compilers     build, then compile everything with LLVM's library of C++ and, for Windows, with MinGW
+./build.sh compilers     build, then compile everything with LLVM's library of C++ and, for Windows, with MinGW, and
+                         run programs of that under Wine
 ./build.sh package       packages for this system in build/packages: .deb of the programs, of the modules in C++ and of
                          the Python module, and .tar.gz of the programs that runs from any folder
 ./build.sh package --test

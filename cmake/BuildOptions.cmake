@@ -23,10 +23,14 @@ endif()
 # one to the others.
 add_compile_definitions(GLM_FORCE_INLINE)
 
+if(WIN32) # whose headers have macros of usual names, and lack that of pi
+    add_compile_definitions(NOMINMAX WIN32_LEAN_AND_MEAN _USE_MATH_DEFINES)
+endif()
+
 # Products and sums are rounded one by one: scenes, films and metrics have the same bits on every machine.
 if(MSVC)
     add_compile_options(/W4 /permissive- /utf-8 /bigobj /fp:precise $<$<BOOL:${RT_WARNINGS_AS_ERRORS}>:/WX>)
-    add_compile_definitions(NOMINMAX _USE_MATH_DEFINES _CRT_SECURE_NO_WARNINGS)
+    add_compile_definitions(_CRT_SECURE_NO_WARNINGS)
 else()
     add_compile_options(-Wall -Wextra -Wpedantic -ffp-contract=off $<$<BOOL:${RT_WARNINGS_AS_ERRORS}>:-Werror>)
     # GCC 12 takes the alternatives that a std::variant does not hold for uninitialised variables.

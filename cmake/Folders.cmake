@@ -22,9 +22,10 @@ function(rt_add_library name folder)
         endif()
     endforeach()
 
-    # Implementations of libraries of one header, which they configure by macros.
+    # Compiled alone, not merged with others: implementations of libraries of one header, which they configure by macros,
+    # and what asks Windows, whose header has macros of common words.
     set(alone ${sources})
-    list(FILTER alone INCLUDE REGEX "/(TinyGltf|StbCodecs)\\.cpp$")
+    list(FILTER alone INCLUDE REGEX "/(TinyGltf|StbCodecs|NewFile|ExecutablePath|Platform)\\.cpp$")
     set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
     if(sources)

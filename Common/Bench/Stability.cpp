@@ -203,10 +203,10 @@ class StabilitySuite {
     // A scene and its camera far from the origin, where coordinates keep all their digits: no bit may change.
     void translation() {
         const Rendered original = render(stillLife(1, dvec3(0)), 64);
-        for (const double far : {131072.0, 1048576.0}) {
-            const Rendered moved = render(stillLife(1, dvec3(far, -far, far)), 64);
+        for (const double distance : {131072.0, 1048576.0}) {
+            const Rendered moved = render(stillLife(1, dvec3(distance, -distance, distance)), 64);
             const double differing = differingPixels(original.image, moved.image);
-            add("translation " + text("%.0f", far), differing, "differing pixels <= " + text("%.0f", tolerated()),
+            add("translation " + text("%.0f", distance), differing, "differing pixels <= " + text("%.0f", tolerated()),
                 moved.nonfinite == 0 && differing <= tolerated());
         }
         compareMeans("translation 1e6", stillLife(1, dvec3(1e6, 1e6, -1e6)), original);
@@ -224,8 +224,8 @@ class StabilitySuite {
         for (const double radius : {1e-4, 1.0, 1e3, 1e4, 1e7}) {
             SphereDesc ball;
             ball.radius = radius, ball.material = "body";
-            const Rendered near = render(convexBody({ball}, {0, 0, 1.5 * radius}, dvec3(0), 20), 256);
-            addMean("sphere of radius " + text("%.0e", radius) + ", self-shadowing", near, 0.5);
+            const Rendered rendered = render(convexBody({ball}, {0, 0, 1.5 * radius}, dvec3(0), 20), 256);
+            addMean("sphere of radius " + text("%.0e", radius) + ", self-shadowing", rendered, 0.5);
         }
         // One of radius 1 on one of radius 1e7: the small one sees half a sky, less what it hides of the ground.
         SphereDesc ground, ball;

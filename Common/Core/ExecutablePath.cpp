@@ -2,7 +2,6 @@
 #include "Common/Core/Paths.h"
 
 #if defined(_WIN32)
-#define WIN32_LEAN_AND_MEAN
 #include <windows.h>
 #elif defined(__APPLE__)
 #include <mach-o/dyld.h>

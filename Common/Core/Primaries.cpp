@@ -33,10 +33,10 @@ dmat3 adaptation(const dvec3& from, const dvec3& to) {
 } // namespace
 
 bool areSame(const Primaries& a, const Primaries& b) {
-    const auto near = [](const dvec2& p, const dvec2& q) {
+    const auto isNear = [](const dvec2& p, const dvec2& q) {
         return std::abs(p.x - q.x) <= kRounding && std::abs(p.y - q.y) <= kRounding;
     };
-    return near(a.red, b.red) && near(a.green, b.green) && near(a.blue, b.blue) && near(a.white, b.white);
+    return isNear(a.red, b.red) && isNear(a.green, b.green) && isNear(a.blue, b.blue) && isNear(a.white, b.white);
 }
 
 dvec3 xyzOf(const dvec2& xy) {

@@ -2,9 +2,9 @@
 """Compiles what a build folder compiles by another compiler, without linking: clang with LLVM's library of C++, or
 MinGW for Windows.
     tests/portable/compile.py BUILD libc++|mingw [TARGET...]
-MinGW has the headers of libraries from this system, by links in a folder of their own, so that those of its C
-library are not: nothing of it is linked, and what stands in another system's header is not seen. It compiles libraries and
-programs; libc++ the tests as well. Prints what a compiler says; exit code 1 where one fails. Targets: those of CMake; none: all.
+MinGW has the headers of libraries from this system: what stands in another system's header is not seen. It compiles
+libraries and programs; libc++ the tests as well. Prints what a compiler says; exit code 1 where one fails.
+Targets: those of CMake; none: all.
 """
 import concurrent.futures
 import json
@@ -16,12 +16,12 @@ import sys
 import tempfile
 from pathlib import Path
 
+import headers
+
 # Warnings that GCC alone knows, and those of headers that are another system's here.
 LIBCXX = ["-stdlib=libc++", "-Wno-unknown-warning-option", "-Wno-unqualified-std-cast-call"]
-MINGW = ["x86_64-w64-mingw32-g++-posix", "-DNOMINMAX", "-D_USE_MATH_DEFINES", "-Wno-attributes"]
-HEADERS = ["glm", "spdlog", "fmt", "nlohmann", "CLI", "tiny_gltf.h", "vulkan", "vk_video", "GLFW", "imgui", "png*.h",
-           "jpeglib.h", "jmorecfg.h", "jerror.h", "zlib.h", "zconf.h", "OpenEXR", "Imath", "tiff*.h", "webp", "stb",
-           "x86_64-linux-gnu/jconfig.h", "x86_64-linux-gnu/tiff*.h", "x86_64-linux-gnu/zconf.h", "libpng16"]
+MINGW = ["x86_64-w64-mingw32-g++-posix", "-DNOMINMAX", "-DWIN32_LEAN_AND_MEAN",
+         "-D_USE_MATH_DEFINES", "-Wno-attributes"]
 # Parts of this build that another system has not: mpirun's library, and what Debian's libraries need of POSIX.
 LEFT_OUT = re.compile(r"ray-tracing-mpi|rt-fault-|rt-docking|rt-record-layout|EmbreeCeiling")
 OF_TESTS = re.compile(r"tests/|rt-[a-z]+-tests|rt-test-")
@@ -34,16 +34,7 @@ def newest_clang():
     return f"clang++-{max(versions)}" if versions else "clang++"
 
 
-def links(folder):
-    for pattern in HEADERS:
-        for header in Path("/usr/include").glob(pattern):
-            link = Path(folder, header.name)
-            if not link.exists():
-                link.symlink_to(header)
-    return folder
-
-
-def command_of(entry, compiler, headers):
+def command_of(entry, compiler, folder):
     words = shlex.split(entry["command"])[1:]
     kept, skip = [], False
     for word in words:
@@ -54,8 +45,8 @@ def command_of(entry, compiler, headers):
         elif word not in ("-c", "-MD", "-Winvalid-pch") and not word.startswith("-DRT_HAS_EMBREE"):
             kept.append(word)
     if compiler == "mingw":
-        folders = [headers, *(f"{headers}/{name}" for name in ("stb", "imgui", "OpenEXR", "Imath"))]
-        return [*MINGW, *(word for folder in folders for word in ("-isystem", folder)), "-fsyntax-only", *kept]
+        folders = [folder, *(f"{folder}/{name}" for name in ("stb", "imgui", "OpenEXR", "Imath"))]
+        return [*MINGW, *(word for place in folders for word in ("-isystem", place)), "-fsyntax-only", *kept]
     system = [word for path in re.findall(r"-isystem (\S+)", entry["command"]) for word in ("-isystem", path)]
     return [newest_clang(), *LIBCXX, "-fsyntax-only", *system, *kept]
 
@@ -68,9 +59,9 @@ def main(build, compiler, targets):
               and not entry["file"].endswith("cmake_pch.hxx.cxx")]
     if not wanted:
         sys.exit("compile.py: nothing to compile")
-    with tempfile.TemporaryDirectory() as headers, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        links(headers)
-        results = pool.map(lambda entry: subprocess.run(command_of(entry, compiler, headers), cwd=entry["directory"],
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        headers.link_all(folder)
+        results = pool.map(lambda entry: subprocess.run(command_of(entry, compiler, folder), cwd=entry["directory"],
                                                         stderr=subprocess.STDOUT, stdout=subprocess.PIPE, text=True,
                                                         check=False), wanted)
         failed = 0

@@ -26,10 +26,10 @@ Plane boxMean(const Plane& plane, int reach, std::size_t threads) {
         for (std::size_t from = rows.first; from <= rows.last; ++from)
             for (std::size_t x = 0; x < width; ++x) columns[x] += plane.row(from)[x];
         for (std::size_t x = 0; x < width; ++x) {
-            const InReach near(x, distance, width);
+            const InReach reach(x, distance, width);
             float sum = 0;
-            for (std::size_t from = near.first; from <= near.last; ++from) sum += columns[from];
-            means.row(y)[x] = sum * near.share() * rows.share();
+            for (std::size_t from = reach.first; from <= reach.last; ++from) sum += columns[from];
+            means.row(y)[x] = sum * reach.share() * rows.share();
         }
     });
     return means;

@@ -159,11 +159,11 @@ std::array<Group, 2> split(std::span<Item> items) {
     std::size_t middle = items.size() / 2;
     if (best.axis >= 0) {
         const double low = centers.lower[best.axis], scale = kBins / (centers.upper[best.axis] - low);
-        const auto far = std::stable_partition(items.begin(), items.end(), [&](const Item& item) {
+        const auto farBegin = std::stable_partition(items.begin(), items.end(), [&](const Item& item) {
             return binOf(item.center[best.axis], low, scale) < best.bin;
         });
-        const auto near = static_cast<std::size_t>(far - items.begin());
-        if (near > 0 && near < items.size()) middle = near;
+        const auto nearCount = static_cast<std::size_t>(farBegin - items.begin());
+        if (nearCount > 0 && nearCount < items.size()) middle = nearCount;
     }
     return {makeGroup(items.first(middle)), makeGroup(items.subspan(middle))};
 }
