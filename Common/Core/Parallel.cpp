@@ -17,16 +17,26 @@ bool canStartThreads() {
 
 namespace {
 
-// Whether that many threads, each with its stack, can exist at the same time.
+// Bytes, more than oneTBB needs to begin. Where it gets none while it begins, release 2021.11 (of Ubuntu 24.04) waits
+// for a lock that it holds itself.
+constexpr std::size_t kLibraryBytes = 4 << 20;
+
+// Whether that many threads, each with its stack, can exist at the same time, and there is memory left for the library.
 bool haveRoomForThreads(std::size_t count) {
     std::mutex gate;
+    std::vector<char> ofLibrary;
     std::vector<std::thread> threads;
     bool all = true;
     {
         const std::scoped_lock closed(gate);
         try {
             threads.reserve(count);
-            while (threads.size() < count) threads.emplace_back([&gate] { const std::scoped_lock passing(gate); });
+            const auto pass = [&gate, &ofLibrary] {
+                const std::scoped_lock passing(gate);
+                if (!ofLibrary.empty()) ofLibrary.back() = 1; // is used, so that no compiler leaves it out
+            };
+            while (threads.size() < count) threads.emplace_back(pass);
+            ofLibrary.resize(kLibraryBytes);
         } catch (const std::system_error&) {
             all = false;
         } catch (const std::bad_alloc&) {
