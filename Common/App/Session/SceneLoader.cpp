@@ -26,7 +26,7 @@ LoadedScene SceneLoader::load(const SceneRequest& request) {
     result.mark = markOf(request.source);
     const Stopwatch watch;
     try {
-        result.scene = request.edits > 0 ? compileKept(*description_, request) : compile(request);
+        result.scene = request.edits > 0 ? compileKept(*description_, request, &memory_) : compile(request);
     } catch (...) {
         result.failure = std::current_exception();
     }
@@ -73,7 +73,7 @@ void SceneLoader::stopEditing() {
     nextDescription_.reset();
     nextEdits_.clear();
     forgetsDescription_ = current_.has_value();
-    if (!forgetsDescription_) description_.reset(); // the thread rests
+    if (!forgetsDescription_) forgetDescription(); // the thread rests
 }
 
 std::uint64_t SceneLoader::edit(std::vector<scene::SceneEdit> edits, bool isGesture) {
@@ -143,6 +143,12 @@ std::optional<std::string> SceneLoader::busyWith() const {
     return std::nullopt;
 }
 
+void SceneLoader::forgetDescription() {
+    description_.reset();
+    memory_ = {};
+    doneEdits_.clear();
+}
+
 void SceneLoader::work() {
     lowerThreadPriority();
     std::unique_lock lock(mutex_);
@@ -152,12 +158,19 @@ void SceneLoader::work() {
         current_ = std::exchange(next_, std::nullopt);
         const SceneRequest request = *current_;
         callOff_ = false;
-        if (std::exchange(forgetsDescription_, false)) description_.reset();
-        if (nextDescription_) description_ = std::exchange(nextDescription_, std::nullopt);
+        if (std::exchange(forgetsDescription_, false)) forgetDescription();
+        if (nextDescription_) {
+            forgetDescription();
+            description_ = std::exchange(nextDescription_, std::nullopt);
+        }
         std::vector<scene::SceneEdit> edits = std::exchange(nextEdits_, {});
         lock.unlock();
-        for (scene::SceneEdit& edit : edits) scene::exchange(*description_, edit);
+        for (scene::SceneEdit& edit : edits) {
+            scene::exchange(*description_, edit);
+            doneEdits_.push_back(std::move(edit));
+        }
         LoadedScene loaded = load(request);
+        if (loaded.scene) doneEdits_.clear();
         lock.lock();
         const bool isOfEarlierEdit = next_ && !callOff_ && loaded.scene && areOfOneEdit(request, *next_);
         const bool wanted = !quit_ && !isGivenUp_ && (!next_ || isOfEarlierEdit);

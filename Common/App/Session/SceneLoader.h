@@ -13,6 +13,7 @@
 
 #include "Common/App/Session/FileFingerprint.h"
 #include "Common/App/Session/SceneSource.h"
+#include "Common/Scene/Compiler/CompileMemory.h"
 #include "Common/Scene/Edit/SceneEdit.h"
 
 namespace rt::app {
@@ -55,6 +56,7 @@ class SceneLoader {
   private:
     LoadedScene load(const SceneRequest& request);
     void ask(SceneRequest request);
+    void forgetDescription();
     void work();
 
     std::function<void(LoadedScene)> onLoaded_;
@@ -72,7 +74,11 @@ class SceneLoader {
     std::optional<scene::SceneDesc> nextDescription_; // of a scene that has begun to be edited
     std::vector<scene::SceneEdit> nextEdits_;
     std::optional<scene::SceneDesc> description_; // the thread's own, with all edits but the next ones
-    bool forgetsDescription_ = false;             // when the thread comes to it
+    // Of the thread's own description. Meshes that edits took out of it stay where they are until it no longer knows
+    // them.
+    scene::CompileMemory memory_;
+    std::vector<scene::SceneEdit> doneEdits_; // since the latest compilation that succeeded
+    bool forgetsDescription_ = false;         // when the thread comes to it
     std::thread thread_;
 };
 

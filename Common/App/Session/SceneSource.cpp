@@ -123,9 +123,11 @@ std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request)
     return compile(loadScene(request.source), request);
 }
 
-std::shared_ptr<const scene::CompiledScene> compileKept(const scene::SceneDesc& desc, const SceneRequest& request) {
+std::shared_ptr<const scene::CompiledScene> compileKept(const scene::SceneDesc& desc, const SceneRequest& request,
+                                                        scene::CompileMemory* memory) {
     const ReadsBelow confined(request.assetsBelow, request.source);
     scene::CompileOptions options;
+    options.memory = memory;
     options.installedMaps = true;
     if (!request.pose.empty()) options.camera = cameraOf(request.pose, desc);
     return compileWith(desc, request.oneSidedLights, options);
@@ -133,7 +135,7 @@ std::shared_ptr<const scene::CompiledScene> compileKept(const scene::SceneDesc& 
 
 std::shared_ptr<const scene::CompiledScene> compile(scene::SceneDesc desc, const SceneRequest& request) {
     std::optional<scene::SceneDesc> kept(std::move(desc));
-    auto compiled = compileKept(*kept, request);
+    auto compiled = compileKept(*kept, request, nullptr);
     kept.reset(); // as large as what was made of it, and engines now want memory
     releaseFreedMemory();
     return compiled;

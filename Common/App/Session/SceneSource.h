@@ -7,6 +7,10 @@
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Scene/SceneDesc.h"
 
+namespace rt::scene {
+struct CompileMemory;
+}
+
 namespace rt::app {
 
 // A .json scene file, an .obj, .gltf, .glb or .pbrt file, by a path of its own or within the assets' folder "scenes",
@@ -29,8 +33,10 @@ struct SceneRequest {
 std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request);
 // Of a scene that is at hand, in place of what the request's source names.
 std::shared_ptr<const scene::CompiledScene> compile(scene::SceneDesc desc, const SceneRequest& request);
-// Of a description that is edited and stays: in place of what the request's source names.
-std::shared_ptr<const scene::CompiledScene> compileKept(const scene::SceneDesc& desc, const SceneRequest& request);
+// Of a description that is edited and stays: in place of what the request's source names. `memory`: of the compilation
+// before, or null.
+std::shared_ptr<const scene::CompiledScene> compileKept(const scene::SceneDesc& desc, const SceneRequest& request,
+                                                        scene::CompileMemory* memory);
 
 // The camera of a pose that may leave parts of it to the scene. Throws UsageError.
 scene::CameraDesc poseOf(const std::string& pose, const scene::CameraDesc& scenes);

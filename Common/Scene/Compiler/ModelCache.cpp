@@ -2,6 +2,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Scene/Builtin/Placeholders.h"
+#include "Common/Scene/Compiler/CompileMemory.h"
 
 namespace rt::scene {
 
@@ -11,22 +12,32 @@ ModelCache::ModelCache(const SceneDesc& desc, const CompileOptions& options, Com
     materials_.setName(plain_, "plain");
 }
 
+// Once for all compilations that have a memory in common.
+std::shared_ptr<const ObjModel> ModelCache::read(const std::string& key, const std::function<ObjModel()>& make) const {
+    if (options_.memory == nullptr) return std::make_shared<const ObjModel>(make());
+    std::shared_ptr<const ObjModel>& kept = options_.memory->models[key];
+    if (!kept) kept = std::make_shared<const ObjModel>(make());
+    return kept;
+}
+
 const ObjModel& ModelCache::model(const MeshFile& source, bool withMaterials) {
     const std::string key = source.file + '\n' + source.standIn + (withMaterials ? "\n+" : "\n-");
     const auto [entry, isNew] = models_.try_emplace(key);
-    if (!isNew) return entry->second;
+    if (!isNew) return *entry->second;
     if (const auto path = locateAsset(source.file, source.standIn, options_, desc_.id, out_.notices)) {
-        entry->second = loadObj(*path, withMaterials, source.file + "/");
-        textures_.add(entry->second.textures);
-        for (const auto& [name, material] : entry->second.materials)
+        const auto load = [&] { return loadObj(*path, withMaterials, source.file + "/"); };
+        entry->second = read(key, load);
+        textures_.add(entry->second->textures);
+        for (const auto& [name, material] : entry->second->materials)
             materials_.setName(material, name.substr(source.file.size() + 1));
-        const std::vector<std::string>& notices = entry->second.notices;
+        const std::vector<std::string>& notices = entry->second->notices;
         out_.notices.insert(out_.notices.end(), notices.begin(), notices.end());
     } else {
         out_.notices.push_back(source.file + ": a generated mesh stands in");
-        entry->second.parts.push_back({{}, makeMeshStandIn(source.standIn)});
+        const auto standIn = [&] { return ObjModel{{{{}, makeMeshStandIn(source.standIn)}}, {}, {}, {}}; };
+        entry->second = read("\n" + source.standIn, standIn);
     }
-    return entry->second;
+    return *entry->second;
 }
 
 std::vector<ModelCache::Part> ModelCache::parts(const MeshDesc& object) {

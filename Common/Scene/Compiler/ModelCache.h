@@ -1,6 +1,9 @@
 // Meshes that objects refer to, each file read once.
 #pragma once
+#include <filesystem>
+#include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,6 +30,7 @@ class ModelCache {
 
   private:
     const ObjModel& model(const MeshFile& source, bool withMaterials);
+    std::shared_ptr<const ObjModel> read(const std::string& key, const std::function<ObjModel()>& make) const;
 
     const SceneDesc& desc_;
     const CompileOptions& options_;
@@ -34,7 +38,7 @@ class ModelCache {
     TextureTable& textures_;
     MaterialTable& materials_;
     const MaterialDesc plain_ = plainMaterial();
-    std::map<std::string, ObjModel> models_;
+    std::map<std::string, std::shared_ptr<const ObjModel>> models_;
 };
 
 } // namespace rt::scene

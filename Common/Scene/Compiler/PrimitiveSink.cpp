@@ -309,7 +309,12 @@ void PrimitiveSink::round(shared::Round record, const MaterialDesc& material, bo
 
 void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at) {
     if (isExcluded(at.part, !emits(own))) return;
-    surface(data, own, light, at, isInWorld());
+    const Affine map = at.outer * at.local;
+    const MaterialDesc& material = at.material ? *at.material : own;
+    const KeptSurface* before = known(data, map, isInWorld());
+    const std::optional<KeptSurface> made =
+        before ? takeOver(*before, data, material, light) : surface(data, material, light, map, at.place, isInWorld());
+    if (made && memory_ != nullptr) kept_.emplace(&data, *made);
 }
 
 // ---- punctual lights -----------------------------------------------------------------------------------------------

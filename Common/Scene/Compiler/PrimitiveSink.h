@@ -2,13 +2,16 @@
 // degenerate, lights for what emits.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Scene/Compiler/Bounds.h"
+#include "Common/Scene/Compiler/CompileMemory.h"
 #include "Common/Scene/Compiler/MaterialTable.h"
 #include "Common/Scene/Compiler/MeshOrder.h"
 
@@ -41,7 +44,9 @@ struct PrimitiveCounts {
 
 class PrimitiveSink {
   public:
-    PrimitiveSink(CompiledScene& out, MaterialTable& materials) : out_(out), materials_(materials) {}
+    // `memory`: of a compilation before, or null.
+    PrimitiveSink(CompiledScene& out, MaterialTable& materials, const CompileMemory* memory = nullptr)
+        : out_(out), materials_(materials), memory_(memory) {}
 
     // Makes room for what comes: arrays that grow are copied again and again.
     void expect(const PrimitiveCounts& counts);
@@ -63,6 +68,8 @@ class PrimitiveSink {
     Bounds finishGeometry();
 
     const std::vector<Ellipsoid>& ellipsoids() const { return ellipsoids_; }
+    // For the next compilation; once.
+    std::multimap<const MeshData*, KeptSurface> takeSurfaces() { return std::move(kept_); }
     // One line for each kind of thing that was dropped or is doubtful.
     void appendNotices(std::vector<std::string>& notices) const;
 
@@ -75,7 +82,13 @@ class PrimitiveSink {
     void quad(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, const MaterialDesc& material,
               bool light, const Affine& map);
     void round(shared::Round record, const MaterialDesc& material, bool light);
-    void surface(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at, bool mayBeDivided);
+    std::optional<KeptSurface> surface(const MeshData& data, const MaterialDesc& material, bool light,
+                                       const Affine& map, const std::string& place, bool mayBeDivided);
+    const KeptSurface* known(const MeshData& data, const Affine& map, bool mayBeDivided) const;
+    KeptSurface takeOver(KeptSurface surface, const MeshData& data, const MaterialDesc& material, bool light);
+    void finishMesh(const shared::Mesh& mesh, KeptSurface& made);
+    void appendTriangleLight(std::size_t triangle, const shared::vec3& a, const shared::vec3& b, const shared::vec3& c,
+                             std::uint32_t material);
     struct VertexUse;
     shared::Mesh meshRecord(const MeshData& data, const MaterialDesc& material, std::size_t triangleCount,
                             bool light) const;
@@ -91,6 +104,8 @@ class PrimitiveSink {
 
     CompiledScene& out_;
     MaterialTable& materials_;
+    const CompileMemory* const memory_;
+    std::multimap<const MeshData*, KeptSurface> kept_; // of what is compiled now
     Bounds bounds_;
     std::vector<Ellipsoid> ellipsoids_;
     struct {

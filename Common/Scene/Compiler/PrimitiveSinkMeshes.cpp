@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <cstring>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,19 +84,24 @@ struct PrimitiveSink::VertexUse {
     std::uint32_t vertex, triangle;
 };
 
-void PrimitiveSink::surface(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at,
-                            bool mayBeDivided) {
-    const Affine map = at.outer * at.local;
-    const MaterialDesc& material = at.material ? *at.material : own;
+// Nothing where it is none that the next compilation could take over.
+std::optional<KeptSurface> PrimitiveSink::surface(const MeshData& data, const MaterialDesc& material, bool light,
+                                                  const Affine& map, const std::string& place, bool mayBeDivided) {
     const auto giveBack = [&] {
         if (data.positions.size() > kManyVertices) releaseFreedMemory();
     };
     std::vector<shared::vec3> positions = mapped(data.positions, map);
-    KeptTriangles kept = keptTriangles(positions, data.triangles, mayBeDivided, out_.id + ": " + at.place);
-    if (kept.mustBeDivided)
-        return surface(divideHugeTriangles(data, map, materials_.mayShowImage(material)), own, light, at, false);
-    dropped_.triangles += data.triangles.size() - kept.numbers.size();
-    if (kept.numbers.empty()) return;
+    KeptTriangles kept = keptTriangles(positions, data.triangles, mayBeDivided, out_.id + ": " + place);
+    if (kept.mustBeDivided) {
+        surface(divideHugeTriangles(data, map, materials_.mayShowImage(material)), material, light, map, place, false);
+        return std::nullopt;
+    }
+    KeptSurface made;
+    made.map = map;
+    made.mayBeDivided = mayBeDivided;
+    made.dropped = data.triangles.size() - kept.numbers.size();
+    dropped_.triangles += made.dropped;
+    if (kept.numbers.empty()) return std::nullopt;
     const WoundTriangles triangles{data.triangles, map.mirrors()};
     orderAlongCurve(positions, triangles, kept.numbers);
     giveBack();
@@ -105,12 +112,72 @@ void PrimitiveSink::surface(const MeshData& data, const MaterialDesc& own, bool 
     giveBack();
     for (const VertexUse& use : uses) {
         out_.positions.push_back(positions[use.vertex]);
-        bounds_.add(out_.positions.back());
+        made.bounds.add(out_.positions.back());
     }
     release(positions);
     giveBack();
     appendAttributes(mesh, data, map, uses);
+    made.vertexCount = static_cast<std::uint32_t>(uses.size());
+    finishMesh(mesh, made);
+    return made;
+}
+
+void PrimitiveSink::finishMesh(const shared::Mesh& mesh, KeptSurface& made) {
+    bounds_.add(made.bounds.lower);
+    bounds_.add(made.bounds.upper);
+    made.mesh = static_cast<std::uint32_t>(out_.meshes.size());
     out_.meshes.push_back(mesh);
+}
+
+// As the compilation before has it; null: it does not.
+const KeptSurface* PrimitiveSink::known(const MeshData& data, const Affine& map, bool mayBeDivided) const {
+    if (memory_ == nullptr || !memory_->scene) return nullptr;
+    const auto [begin, end] = memory_->surfaces.equal_range(&data);
+    const auto found = std::find_if(begin, end, [&](const auto& entry) {
+        // Bit by bit: -0 is not 0.
+        return entry.second.mayBeDivided == mayBeDivided && std::memcmp(&entry.second.map, &map, sizeof map) == 0;
+    });
+    return found == end ? nullptr : &found->second;
+}
+
+// What depends on the material alone is made anew: the record, and lights.
+KeptSurface PrimitiveSink::takeOver(KeptSurface surface, const MeshData& data, const MaterialDesc& material,
+                                    bool light) {
+    const CompiledScene& before = *memory_->scene;
+    const shared::Mesh& was = before.meshes[surface.mesh];
+    shared::Mesh mesh = meshRecord(data, material, was.triangleCount, light);
+    dropped_.triangles += surface.dropped;
+    const auto append = [](auto& to, const auto& from, std::uint32_t first, std::uint32_t count) {
+        interruptionPoint();
+        if (first != shared::kNone) to.insert(to.end(), from.begin() + first, from.begin() + first + count);
+    };
+    append(out_.positions, before.positions, was.firstVertex, surface.vertexCount);
+    append(out_.normals, before.normals, was.firstNormal, surface.vertexCount);
+    append(out_.uvs, before.uvs, was.firstUv, surface.vertexCount);
+    if (was.firstUv2 != shared::kNone) mesh.firstUv2 = static_cast<std::uint32_t>(out_.uvs.size());
+    append(out_.uvs, before.uvs, was.firstUv2, surface.vertexCount);
+    append(out_.colors, before.colors, was.firstColor, surface.vertexCount);
+    append(out_.tangents, before.tangents, was.firstTangent, surface.vertexCount);
+
+    append(out_.triangles, before.triangles, was.firstTriangle, was.triangleCount);
+    const shared::uvec3 shift(mesh.firstVertex - was.firstVertex); // modulo 2^32
+    for (std::size_t i = mesh.firstTriangle; i < out_.triangles.size(); ++i) out_.triangles[i] += shift;
+    out_.triangleMesh.resize(out_.triangles.size(), static_cast<std::uint32_t>(out_.meshes.size()));
+    if (mesh.firstLight != shared::kNone)
+        for (std::size_t i = mesh.firstTriangle; i < out_.triangles.size(); ++i) {
+            interruptionPoint();
+            const shared::uvec3 t = out_.triangles[i];
+            appendTriangleLight(i, out_.positions[t.x], out_.positions[t.y], out_.positions[t.z], mesh.material);
+        }
+    finishMesh(mesh, surface);
+    return surface;
+}
+
+void PrimitiveSink::appendTriangleLight(std::size_t triangle, const shared::vec3& a, const shared::vec3& b,
+                                        const shared::vec3& c, std::uint32_t material) {
+    shared::Light record = triangleLight(a, b, c);
+    record.triangle = static_cast<std::uint32_t>(triangle);
+    appendLight(record, material);
 }
 
 shared::Mesh PrimitiveSink::meshRecord(const MeshData& data, const MaterialDesc& material, std::size_t triangleCount,
@@ -149,11 +216,9 @@ std::vector<PrimitiveSink::VertexUse> PrimitiveSink::appendTriangles(const share
         }
         out_.triangles.emplace_back(renamed[t.x], renamed[t.y], renamed[t.z]);
         out_.triangleMesh.push_back(static_cast<std::uint32_t>(out_.meshes.size()));
-        if (mesh.firstLight != shared::kNone) {
-            shared::Light record = triangleLight(positions[t.x], positions[t.y], positions[t.z]);
-            record.triangle = static_cast<std::uint32_t>(out_.triangles.size() - 1);
-            appendLight(record, mesh.material);
-        }
+        if (mesh.firstLight != shared::kNone)
+            appendTriangleLight(out_.triangles.size() - 1, positions[t.x], positions[t.y], positions[t.z],
+                                mesh.material);
     }
     return uses;
 }

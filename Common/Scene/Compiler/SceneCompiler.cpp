@@ -5,6 +5,7 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "Common/Scene/Compiler/CompileMemory.h"
 #include "Common/Scene/Compiler/FeatureMask.h"
 #include "Common/Scene/Compiler/InstancePlan.h"
 #include "Common/Scene/Compiler/LightTable.h"
@@ -36,7 +37,8 @@ class Compiler {
           textures_(desc, options, *out_),
           materials_(desc, options, *out_, textures_),
           models_(desc, options, *out_, textures_, materials_),
-          sink_(*out_, materials_) {}
+          memory_(options.memory),
+          sink_(*out_, materials_, memory_) {}
 
     std::shared_ptr<const CompiledScene> run() {
         out_->id = desc_.id;
@@ -62,6 +64,10 @@ class Compiler {
         if (!bounds_.empty()) {
             out_->lower = bounds_.lower + out_->origin;
             out_->upper = bounds_.upper + out_->origin;
+        }
+        if (memory_ != nullptr) {
+            memory_->surfaces = sink_.takeSurfaces();
+            memory_->scene = out_;
         }
         return out_;
     }
@@ -317,6 +323,7 @@ class Compiler {
     TextureTable textures_;
     MaterialTable materials_;
     ModelCache models_;
+    CompileMemory* const memory_; // or null
     PrimitiveSink sink_;
     Bounds bounds_; // of everything, in world space
     std::uint64_t droppedMedia_ = 0;

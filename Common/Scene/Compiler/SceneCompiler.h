@@ -33,10 +33,14 @@ struct EncodedTexels {
     std::function<TexelData()> decoded; // on any thread; throws InputError
 };
 
+struct CompileMemory;
+
 struct CompileOptions {
     bool oneSidedLights = true;   // what emitters do that do not say it themselves
     bool generatedAssets = false; // take stand-ins even where the file exists, so that figures compare across machines
     bool installedMaps = false;   // take planet maps of the system's packages before those that are generated
+    // Of the compilation before, of this scene as it was; afterwards of this one. What comes out is the same without.
+    CompileMemory* memory = nullptr;
     std::optional<CameraDesc> camera; // in place of the scene's, which the compiled scene's origin stays at
     // Reads an image file, or the image of a number in a file of glTF; throws InputError. A scene with images needs it.
     std::function<EncodedTexels(const std::filesystem::path&, std::optional<std::uint32_t>)> loadTexels;

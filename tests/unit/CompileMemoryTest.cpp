@@ -1,0 +1,72 @@
+// What a compilation takes over from the one before is what it would have made itself, to the byte.
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "Common/Scene/Compiler/CompileMemory.h"
+#include "Common/Scene/Compiler/SceneCompiler.h"
+#include "Common/Scene/Edit/SceneEdit.h"
+#include "Common/Shared/Base/SceneAccess.h"
+#include "tests/unit/EditedScenes.h"
+
+namespace rt::scene {
+namespace {
+
+void expectSame(const CompiledScene& a, const CompiledScene& b) {
+    const auto compare = [](const char* name, const auto& x, const auto& y) {
+        ASSERT_EQ(x.size(), y.size()) << name;
+        EXPECT_TRUE(x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0) << name;
+    };
+    shared::forEachArray(compare, a, b);
+    EXPECT_EQ(std::memcmp(&a.globals, &b.globals, sizeof a.globals), 0);
+    EXPECT_TRUE(a.features == b.features);
+    EXPECT_EQ(a.hash, b.hash);
+    EXPECT_EQ(a.lower, b.lower);
+    EXPECT_EQ(a.upper, b.upper);
+    EXPECT_EQ(a.notices, b.notices);
+    EXPECT_EQ(a.materialNames, b.materialNames);
+    EXPECT_EQ(a.origins.instances, b.origins.instances);
+    compare("origins", a.origins.triangles, b.origins.triangles);
+    compare("origins", a.origins.spheres, b.origins.spheres);
+}
+
+TEST(CompileMemory, EditedScenesAreThoseCompiledFromScratch) {
+    SceneDesc scene = sceneOfMeshes();
+    CompileMemory memory;
+    CompileOptions remembering;
+    remembering.memory = &memory;
+    EditsOfMeshes edits(31);
+    std::vector<SceneEdit> done;
+    for (int i = 0; i < 400; ++i) {
+        SceneEdit edit = edits.next(scene);
+        exchange(scene, edit);
+        done.push_back(std::move(edit));
+        if (i % 3 == 0) continue; // several edits at once
+        const auto remembered = compileScene(scene, remembering);
+        done.clear();
+        expectSame(*remembered, *compileScene(scene));
+        if (HasFailure()) FAIL() << "after edit " << i;
+    }
+}
+
+// Vertices and triangles of what stays are those that were there, which a mesh in memory that is no longer what it was
+// shows: nobody has looked at it.
+TEST(CompileMemory, TakesOverWhatHasNotChanged) {
+    SceneDesc scene = sceneOfMeshes();
+    CompileMemory memory;
+    CompileOptions remembering;
+    remembering.memory = &memory;
+    compileScene(scene, remembering);
+    EXPECT_EQ(memory.surfaces.size(), 4u); // of the scene two, of the prototype two
+    const auto first = compileScene(scene);
+    const auto& world = std::get<Boxed<MeshData>>(std::get<MeshDesc>(scene.objects[1].shape).source);
+    const_cast<MeshData&>(*world).positions.assign(world->positions.size(), glm::dvec3(7)); // in place
+    EXPECT_EQ(compileScene(scene, remembering)->hash, first->hash);
+    EXPECT_NE(compileScene(scene)->hash, first->hash);
+}
+
+} // namespace
+} // namespace rt::scene
