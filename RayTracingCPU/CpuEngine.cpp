@@ -77,7 +77,7 @@ std::array<float, 256> makeSrgbTable() {
 // A scene with everything that tracing it on the CPU needs.
 struct PreparedScene {
     std::shared_ptr<const scene::CompiledScene> compiled;
-    std::unique_ptr<const accel::CpuAccel> accel;
+    std::unique_ptr<accel::CpuAccel> accel;
     // Descents through a large tree of lights jump about in it, and so does what they end at.
     accel::LargeArray<shared::LightNode> lightNodes;
     accel::LargeArray<shared::Light> lights; // if there are many
@@ -107,15 +107,18 @@ class CpuEngine final : public app::Engine {
         const Clock::time_point start = Clock::now();
         auto prepared = std::make_unique<PreparedScene>();
         const scene::CompiledScene& s = *compiled;
-        const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,     s.positions,
-                                      s.triangles, s.geometries,    s.instances, s.rounds};
-        accel::BuildSettings build;
-        build.tree.threads = threads_;
-        prepared->accel = accel::CpuAccel::build(input, build, cancel);
-        if (!prepared->accel) return false;
         if (!s.lightNodes.empty()) {
             prepared->lightNodes = accel::LargeArray<shared::LightNode>(s.lightNodes);
             prepared->lights = accel::LargeArray<shared::Light>(s.lights);
+        }
+        const accel::AccelInput input = accel::inputOf(s);
+        if (scene_ && scene_->accel->follow(accel::inputOf(*scene_->compiled), input, threads_)) {
+            prepared->accel = std::move(scene_->accel);
+        } else {
+            accel::BuildSettings build;
+            build.tree.threads = threads_;
+            prepared->accel = accel::CpuAccel::build(input, build, cancel);
+            if (!prepared->accel) return false;
         }
         prepared->compiled = std::move(compiled);
         prepared->view = makeView(*prepared, set_);

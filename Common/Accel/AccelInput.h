@@ -18,4 +18,10 @@ struct AccelInput {
     std::span<const shared::Round> rounds{};
 };
 
+// Of a compiled scene.
+template <class Scene>
+AccelInput inputOf(const Scene& s) {
+    return {s.spheres, s.sphereMotions, s.quads, s.positions, s.triangles, s.geometries, s.instances, s.rounds};
+}
+
 } // namespace rt::accel

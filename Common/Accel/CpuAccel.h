@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "Common/Accel/AccelInput.h"
 #include "Common/Accel/AccelView.h"
@@ -29,6 +30,11 @@ class CpuAccel {
                                            std::atomic<std::uint64_t>* primitivesDone = nullptr);
     ~CpuAccel();
 
+    // Becomes that of another version of the scene it was built of, where only places and forms differ: trees stay, and
+    // boxes change. False: it is as it was, and must be built anew; so it is also where trees are small, or no longer
+    // good as too much has moved.
+    bool follow(const AccelInput& before, const AccelInput& now, std::uint32_t threads);
+
     const AccelView& view() const { return view_; } // points into this object
     std::size_t bytes() const;                      // of memory held
 
@@ -37,6 +43,8 @@ class CpuAccel {
 
     std::unique_ptr<AccelStorage> storage_;
     AccelView view_;
+    std::optional<double> builtArea_; // of the tree's boxes, once they were to change
+    double area_ = 0;                 // by now
 };
 
 } // namespace rt::accel

@@ -21,20 +21,20 @@ Block emptyBlock() {
     return block;
 }
 
-void setLane(float (&components)[3][kWidth], std::uint32_t lane, shared::vec3 v) {
+inline void setLane(float (&components)[3][kWidth], std::uint32_t lane, shared::vec3 v) {
     for (int a = 0; a < 3; ++a) {
         components[a][lane] = v[a];
     }
 }
 
-void fillLane(SphereBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
+inline void fillLane(SphereBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
     const shared::Sphere& sphere = input.spheres[index];
     setLane(block.center, lane, sphere.center);
     block.radius[lane] = sphere.radius;
     block.primitive[lane] = index;
 }
 
-void fillLane(NearSphereBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
+inline void fillLane(NearSphereBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
     const shared::Sphere& sphere = input.spheres[index];
     setLane(block.center, lane, sphere.center);
     block.radius[lane] = sphere.radius;
@@ -42,7 +42,7 @@ void fillLane(NearSphereBlock& block, std::uint32_t lane, const AccelInput& inpu
     block.primitive[lane] = index;
 }
 
-void fillLane(MovingSphereBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
+inline void fillLane(MovingSphereBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
     const shared::Sphere& sphere = input.spheres[index];
     setLane(block.center, lane, sphere.center);
     setLane(block.motion, lane, input.motions[index]);
@@ -50,7 +50,7 @@ void fillLane(MovingSphereBlock& block, std::uint32_t lane, const AccelInput& in
     block.primitive[lane] = index;
 }
 
-void fillLane(QuadBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
+inline void fillLane(QuadBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
     const shared::Quad& quad = input.quads[index];
     const shared::QuadFrame frame = shared::quadFrame(quad.edgeU, quad.edgeV);
     setLane(block.corner, lane, quad.corner);
@@ -62,7 +62,7 @@ void fillLane(QuadBlock& block, std::uint32_t lane, const AccelInput& input, std
     block.primitive[lane] = index;
 }
 
-void fillLane(TriangleBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
+inline void fillLane(TriangleBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
     const shared::uvec3 vertices = input.triangles[index];
     for (int i = 0; i < 3; ++i) {
         setLane(block.vertex[i], lane, input.positions[vertices[i]]);
@@ -70,7 +70,7 @@ void fillLane(TriangleBlock& block, std::uint32_t lane, const AccelInput& input,
     block.primitive[lane] = index;
 }
 
-void fillLane(RoundBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
+inline void fillLane(RoundBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
     const shared::Round& round = input.rounds[index];
     const shared::RoundFrame frame = shared::roundFrame(round.edgeU, round.edgeV, round.axis);
     setLane(block.origin, lane, round.origin);
