@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "Common/Accel/Build/PrimitiveBoxes.h"
+#include "Common/Accel/SameGeometry.h"
 #include "Common/Core/Error.h"
 #include "Common/Vulkan/StagingRing.h"
 
@@ -108,59 +109,101 @@ VkTransformMatrixKHR toMatrix(const shared::vec4 (&rows)[3]) {
 } // namespace
 
 AccelStructure::AccelStructure(vulkan::VulkanContext& context, const scene::CompiledScene& scene,
-                               const shared::SceneArrays& arrays)
+                               const shared::SceneArrays& arrays, const std::optional<Before>& before)
     : context_(context) {
     if (scene.instances.size() >= kMaxCustomIndex) {
         throw RenderError(std::to_string(scene.instances.size()) + " instances are more than the " +
                           std::to_string(kMaxCustomIndex - 1) + " that a Vulkan scene can have");
     }
     AccelBuilder builder(context);
+    listBottomLevels(scene, before);
     buildBottomLevels(builder, scene, arrays);
-    buildTopLevel(builder, scene);
+    if (before && hasLevelsOf(before->structure) &&
+        accel::sameInstances(accel::inputOf(before->scene), accel::inputOf(scene)))
+        topLevel_ = before->structure.topLevel_;
+    else
+        buildTopLevel(builder, scene);
     buildSeconds_ = builder.seconds();
+}
+
+void AccelStructure::listBottomLevels(const scene::CompiledScene& scene, const std::optional<Before>& before) {
+    using Same = bool (*)(const accel::AccelInput&, const accel::AccelInput&, std::uint32_t);
+    const auto list = [&](std::uint32_t geometry, std::uint32_t hitRecord, Same same) {
+        BottomLevel level{geometry, hitRecord, 0, nullptr};
+        if (before && geometry < before->scene.geometries.size() &&
+            same(accel::inputOf(before->scene), accel::inputOf(scene), geometry)) {
+            const std::vector<BottomLevel>& levels = before->structure.bottomLevels_;
+            const auto isIt = [&](const BottomLevel& other) {
+                return other.geometry == geometry && other.hitRecord == hitRecord;
+            };
+            const auto found = std::find_if(levels.begin(), levels.end(), isIt);
+            if (found != levels.end()) level = *found;
+        }
+        bottomLevels_.push_back(std::move(level));
+    };
+    for (std::uint32_t i = 0; i < scene.geometries.size(); ++i) {
+        const shared::Geometry& g = scene.geometries[i];
+        if (g.triangleCount + g.quadCount > 0)
+            list(i, g.triangleCount > 0 ? shared::kHitRecordTriangle : shared::kHitRecordQuad, accel::sameSurfaces);
+        if (g.sphereCount > 0) list(i, shared::kHitRecordSphere, accel::sameSpheres);
+        if (g.roundCount > 0) list(i, shared::kHitRecordRound, accel::sameRounds);
+    }
 }
 
 void AccelStructure::buildBottomLevels(AccelBuilder& builder, const scene::CompiledScene& scene,
                                        const shared::SceneArrays& arrays) {
+    std::vector<BottomLevel*> missing;
+    for (BottomLevel& level : bottomLevels_)
+        if (!level.storage) missing.push_back(&level);
+    if (missing.empty()) return;
     const auto quads = vulkan::deviceArray<vec3>(context_, quadVertices(scene), "quads", kBuildInput);
     const auto boxes = vulkan::deviceArray<VkAabbPositionsKHR>(context_, sphereBoxes(scene), "spheres", kBuildInput);
     const auto rounds =
         vulkan::deviceArray<VkAabbPositionsKHR>(context_, roundBoxes(scene), "disks and cylinders", kBuildInput);
-    std::vector<AccelInput> inputs;
-    for (std::uint32_t i = 0; i < scene.geometries.size(); ++i) {
-        const shared::Geometry& g = scene.geometries[i];
-        AccelInput surfaces;
+    const auto boxed = [](const vulkan::Buffer& from, std::uint32_t first, std::uint32_t count) -> AccelInput {
+        return {{boxGeometry(from.address() + VkDeviceSize{first} * sizeof(VkAabbPositionsKHR))}, {{count, 0, 0, 0}}};
+    };
+    const auto surfaces = [&](const shared::Geometry& g) {
+        AccelInput input;
         if (g.triangleCount > 0) {
-            surfaces.geometries.push_back(triangleGeometry(
+            input.geometries.push_back(triangleGeometry(
                 arrays.positions, static_cast<std::uint32_t>(scene.positions.size()), arrays.triangles));
             const std::uint32_t offset = g.firstTriangle * static_cast<std::uint32_t>(sizeof(shared::uvec3));
-            surfaces.ranges.push_back({g.triangleCount, offset, 0, 0});
+            input.ranges.push_back({g.triangleCount, offset, 0, 0});
         }
         if (g.quadCount > 0) {
             const VkDeviceSize offset = VkDeviceSize{g.firstQuad} * kQuadVertices * sizeof(vec3);
-            surfaces.geometries.push_back(triangleGeometry(quads.address() + offset, g.quadCount * kQuadVertices, 0));
-            surfaces.ranges.push_back({2 * g.quadCount, 0, 0, 0});
+            input.geometries.push_back(triangleGeometry(quads.address() + offset, g.quadCount * kQuadVertices, 0));
+            input.ranges.push_back({2 * g.quadCount, 0, 0, 0});
         }
-        if (!surfaces.geometries.empty()) {
-            bottomLevels_.push_back({i, g.triangleCount > 0 ? shared::kHitRecordTriangle : shared::kHitRecordQuad});
-            inputs.push_back(std::move(surfaces));
-        }
-        if (g.sphereCount > 0) {
-            bottomLevels_.push_back({i, shared::kHitRecordSphere});
-            const VkDeviceSize offset = VkDeviceSize{g.firstSphere} * sizeof(VkAabbPositionsKHR);
-            inputs.push_back({{boxGeometry(boxes.address() + offset)}, {{g.sphereCount, 0, 0, 0}}});
-        }
-        if (g.roundCount > 0) {
-            bottomLevels_.push_back({i, shared::kHitRecordRound});
-            const VkDeviceSize offset = VkDeviceSize{g.firstRound} * sizeof(VkAabbPositionsKHR);
-            inputs.push_back({{boxGeometry(rounds.address() + offset)}, {{g.roundCount, 0, 0, 0}}});
+        return input;
+    };
+    std::vector<AccelInput> inputs;
+    for (const BottomLevel* level : missing) {
+        const shared::Geometry& g = scene.geometries[level->geometry];
+        if (level->hitRecord == shared::kHitRecordSphere)
+            inputs.push_back(boxed(boxes, g.firstSphere, g.sphereCount));
+        else if (level->hitRecord == shared::kHitRecordRound)
+            inputs.push_back(boxed(rounds, g.firstRound, g.roundCount));
+        else
+            inputs.push_back(surfaces(g));
+    }
+    auto level = missing.begin();
+    for (AccelStorage& built : builder.buildBottomLevels(inputs)) {
+        const auto storage = std::make_shared<const AccelStorage>(std::move(built));
+        for (const Accel& structure : storage->structures) {
+            (*level)->address = structure.address;
+            (*level++)->storage = storage;
         }
     }
-    bottomStorage_ = builder.buildBottomLevels(inputs);
-    auto level = bottomLevels_.begin();
-    for (const AccelStorage& storage : bottomStorage_) {
-        for (const Accel& structure : storage.structures) (level++)->address = structure.address;
-    }
+}
+
+bool AccelStructure::hasLevelsOf(const AccelStructure& other) const {
+    const auto isSame = [](const BottomLevel& a, const BottomLevel& b) {
+        return a.geometry == b.geometry && a.hitRecord == b.hitRecord && a.address == b.address;
+    };
+    return std::equal(bottomLevels_.begin(), bottomLevels_.end(), other.bottomLevels_.begin(),
+                      other.bottomLevels_.end(), isSame);
 }
 
 // Of each instance one for each bottom level of its geometry; the scene's own primitives, of geometry 0, are instance
@@ -199,7 +242,8 @@ void AccelStructure::buildTopLevel(AccelBuilder& builder, const scene::CompiledS
     geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
     geometry.geometry.instances.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR;
     geometry.geometry.instances.data.deviceAddress = buffer.address();
-    topLevel_ = builder.buildTopLevel({{geometry}, {{static_cast<std::uint32_t>(instances.size()), 0, 0, 0}}});
+    topLevel_ = std::make_shared<const AccelStorage>(
+        builder.buildTopLevel({{geometry}, {{static_cast<std::uint32_t>(instances.size()), 0, 0, 0}}}));
 }
 
 } // namespace rt::gpu

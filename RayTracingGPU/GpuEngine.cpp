@@ -39,7 +39,7 @@ class GpuEngine final : public app::Engine, private FilmOnDevice {
           renderer_(context, cache_, options_, engine_, kernels_, report_) {}
 
     bool setScene(std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel) override {
-        auto prepared = std::make_unique<GpuScene>(context_, engine_, std::move(compiled), cancel);
+        auto prepared = std::make_unique<GpuScene>(context_, engine_, std::move(compiled), cancel, scene_.get());
         if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) return false;
         preview_.reset();
         scene_ = std::move(prepared);

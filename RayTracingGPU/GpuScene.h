@@ -16,9 +16,11 @@ namespace rt::gpu {
 // lists of the compute engine. Immutable.
 class GpuScene {
   public:
-    // Uploads and builds. Useless when *cancel became true. Throws RenderError.
+    // Uploads and builds what is not the same in `before`, a scene of the same engine or null. Useless when *cancel
+    // became true. Throws RenderError.
     GpuScene(vulkan::VulkanContext& context, app::GpuEngineKind engine,
-             std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel);
+             std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel,
+             const GpuScene* before = nullptr);
 
     // A superset of the scene's features may look for motion where there is none: sets it to zero.
     void provideMotion(vulkan::VulkanContext& context);
@@ -31,21 +33,25 @@ class GpuScene {
     // Of engines that usesAccelStructure().
     VkAccelerationStructureKHR topLevel() const { return accel_->topLevel(); }
     // Of the compute engine.
-    const vulkan::Buffer& linearLists() const { return linearLists_; }
+    const vulkan::Buffer& linearLists() const { return *linearLists_; }
     const TraversalShape& shape() const { return shape_; }
 
   private:
+    using SharedBuffer = std::shared_ptr<const vulkan::Buffer>; // with other versions of the scene
+    void uploadArrays(vulkan::VulkanContext& context, VkBufferUsageFlags usage, const GpuScene* before);
     void buildTree(vulkan::VulkanContext& context, const std::atomic<bool>* cancel);
+    void takeTree(const GpuScene& from);
     template <class T>
-    std::uint64_t add(vulkan::VulkanContext& context, const std::vector<T>& data, const char* name,
-                      VkBufferUsageFlags usage = 0);
+    std::uint64_t addToTree(vulkan::VulkanContext& context, const std::vector<T>& data, const char* name);
 
     std::shared_ptr<const scene::CompiledScene> compiled_;
-    std::vector<vulkan::Buffer> buffers_;
+    std::vector<SharedBuffer> arrayBuffers_; // of each array; null where that is empty
+    std::vector<SharedBuffer> treeBuffers_;
+    vulkan::Buffer rest_; // of spheres: motion that is none
     shared::SceneArrays arrays_{};
     shared::TreeArrays tree_{};
     std::unique_ptr<AccelStructure> accel_;
-    vulkan::Buffer linearLists_;
+    SharedBuffer linearLists_;
     TraversalShape shape_;
     double buildSeconds_ = 0;
 };
