@@ -46,8 +46,8 @@ Box boxOf(const WideNode& node) {
 class Refit {
   public:
     // Takes all memory that it needs: once something has changed, nothing may fail.
-    Refit(AccelStorage& storage, const AccelInput& now, std::uint32_t threads)
-        : storage_(storage), now_(now), threads_(threads), nodeChanged_(storage.nodes.size()) {
+    Refit(AccelStorage& storage, Reference root, std::uint32_t threads)
+        : storage_(storage), root_(root), threads_(threads), nodeChanged_(storage.nodes.size()) {
         changedOf(LeafKind::Sphere).resize(storage.spheres.size());
         changedOf(LeafKind::NearSphere).resize(storage.nearSpheres.size());
         changedOf(LeafKind::MovingSphere).resize(storage.movingSpheres.size());
@@ -57,23 +57,27 @@ class Refit {
         changedOf(LeafKind::Instance).resize(storage.instances.size());
     }
 
-    double run(Reference root, const AccelInput& before) {
+    // Returns by how much areaOf() has grown.
+    double run(const AccelInput& before, const AccelInput& now) {
+        now_ = &now;
+        std::fill(nodeChanged_.begin(), nodeChanged_.end(), std::uint8_t{0});
+        for (std::vector<std::uint8_t>& changed : changed_) std::fill(changed.begin(), changed.end(), std::uint8_t{0});
         const auto refillKind = [&]<class Block>(const LargeArray<Block>& blocks, LeafKind kind, bool isSame) {
             if (!isSame) refill(blocks, changedOf(kind));
         };
-        const bool isSame = sameArray(before.spheres, now_.spheres) && sameArray(before.motions, now_.motions);
+        const bool isSame = sameArray(before.spheres, now_->spheres) && sameArray(before.motions, now_->motions);
         refillKind(storage_.spheres, LeafKind::Sphere, isSame);
         refillKind(storage_.nearSpheres, LeafKind::NearSphere, isSame);
         refillKind(storage_.movingSpheres, LeafKind::MovingSphere, isSame);
-        refillKind(storage_.quads, LeafKind::Quad, sameArray(before.quads, now_.quads));
+        refillKind(storage_.quads, LeafKind::Quad, sameArray(before.quads, now_->quads));
         refillKind(storage_.triangles, LeafKind::Triangle,
-                   sameArray(before.triangles, now_.triangles) && sameArray(before.positions, now_.positions));
-        refillKind(storage_.rounds, LeafKind::Round, sameArray(before.rounds, now_.rounds));
+                   sameArray(before.triangles, now_->triangles) && sameArray(before.positions, now_->positions));
+        refillKind(storage_.rounds, LeafKind::Round, sameArray(before.rounds, now_->rounds));
         // Trees stand one behind the other, the world's last.
-        refitNodes(0, root);
+        refitNodes(0, root_);
         moveInstances();
         growth_ = 0;
-        refitNodes(root, storage_.nodes.size());
+        refitNodes(root_, storage_.nodes.size());
         return growth_;
     }
 
@@ -88,7 +92,7 @@ class Refit {
                 Block fresh = emptyBlock<Block>();
                 for (std::uint32_t lane = 0; lane < kWidth; ++lane)
                     if (blocks[i].primitive[lane] != shared::kNone)
-                        fillLane(fresh, lane, now_, blocks[i].primitive[lane]);
+                        fillLane(fresh, lane, *now_, blocks[i].primitive[lane]);
                 if (std::memcmp(&blocks[i], &fresh, sizeof fresh) == 0) continue;
                 blocks[i] = fresh;
                 changed[i] = 1;
@@ -100,7 +104,7 @@ class Refit {
         std::vector<std::uint8_t>& changed = changedOf(LeafKind::Instance);
         for (std::size_t i = 0; i < changed.size(); ++i) {
             PlacedGeometry& placed = storage_.instances[i];
-            const auto& toObject = now_.instances[placed.instance].toObject;
+            const auto& toObject = now_->instances[placed.instance].toObject;
             changed[i] = std::memcmp(placed.toObject, toObject, sizeof toObject) != 0 || hasChanged(placed.root);
             std::copy(std::begin(toObject), std::end(toObject), placed.toObject);
         }
@@ -148,34 +152,36 @@ class Refit {
     }
 
     Box boxOfBlock(LeafKind kind, std::uint32_t i) const {
-        const auto sphere = [this](std::uint32_t s) { return accel::boxOf(now_.spheres[s]); };
+        const auto sphere = [this](std::uint32_t s) { return accel::boxOf(now_->spheres[s]); };
         switch (kind) {
             case LeafKind::Sphere:
                 return boxOfLanes(storage_.spheres[i], sphere);
             case LeafKind::NearSphere:
                 return boxOfLanes(storage_.nearSpheres[i], sphere);
             case LeafKind::MovingSphere: {
-                const auto moving = [this](std::uint32_t s) { return accel::boxOf(now_.spheres[s], now_.motions[s]); };
+                const auto moving = [this](std::uint32_t s) {
+                    return accel::boxOf(now_->spheres[s], now_->motions[s]);
+                };
                 return boxOfLanes(storage_.movingSpheres[i], moving);
             }
             case LeafKind::Quad: {
-                const auto quad = [this](std::uint32_t q) { return accel::boxOf(now_.quads[q]); };
+                const auto quad = [this](std::uint32_t q) { return accel::boxOf(now_->quads[q]); };
                 return boxOfLanes(storage_.quads[i], quad);
             }
             case LeafKind::Round: {
-                const auto round = [this](std::uint32_t r) { return accel::boxOf(now_.rounds[r]); };
+                const auto round = [this](std::uint32_t r) { return accel::boxOf(now_->rounds[r]); };
                 return boxOfLanes(storage_.rounds[i], round);
             }
             case LeafKind::Instance: {
                 const PlacedGeometry& placed = storage_.instances[i];
-                return accel::boxOf(now_.instances[placed.instance], boxBelow(placed.root));
+                return accel::boxOf(now_->instances[placed.instance], boxBelow(placed.root));
             }
             case LeafKind::Triangle:
                 break;
         }
         const auto triangle = [this](std::uint32_t t) {
-            const shared::uvec3 v = now_.triangles[t];
-            return accel::boxOf(now_.positions[v.x], now_.positions[v.y], now_.positions[v.z]);
+            const shared::uvec3 v = now_->triangles[t];
+            return accel::boxOf(now_->positions[v.x], now_->positions[v.y], now_->positions[v.z]);
         };
         return boxOfLanes(storage_.triangles[i], triangle);
     }
@@ -185,8 +191,9 @@ class Refit {
     static std::uint32_t firstBlock(Reference leaf) { return leaf % kMaxBlocks; }
 
     AccelStorage& storage_;
-    const AccelInput& now_;
+    const Reference root_; // of the world
     const std::uint32_t threads_;
+    const AccelInput* now_ = nullptr;
     std::vector<std::uint8_t> changed_[kLeafKinds]; // blocks of each kind
     std::vector<std::uint8_t> nodeChanged_;
     double growth_ = 0;
@@ -222,9 +229,16 @@ double areaOf(const LargeArray<WideNode>& nodes, Reference root) {
     return area;
 }
 
-double refit(AccelStorage& storage, Reference root, const AccelInput& before, const AccelInput& now,
-             std::uint32_t threads) {
-    return Refit(storage, now, threads).run(root, before);
+bool refit(AccelStorage& storage, Reference root, const AccelInput& before, const AccelInput& now, double maxArea,
+           double& area, std::uint32_t threads) {
+    Refit boxes(storage, root, threads);
+    const double grown = area + boxes.run(before, now);
+    if (grown > maxArea) {
+        boxes.run(now, before);
+        return false;
+    }
+    area = grown;
+    return true;
 }
 
 } // namespace rt::accel

@@ -13,8 +13,8 @@ bool canRefit(const AccelStorage& storage, Reference root, const AccelInput& bef
 // Half the surface of all boxes of the world's tree together: in proportion to it they are visited.
 double areaOf(const LargeArray<WideNode>& nodes, Reference root);
 
-// Requires canRefit(). Returns by how much that surface has grown.
-double refit(AccelStorage& storage, Reference root, const AccelInput& before, const AccelInput& now,
-             std::uint32_t threads);
+// Requires canRefit(). Keeps track of that surface; false: it would be larger than `maxArea`, and all is as it was.
+bool refit(AccelStorage& storage, Reference root, const AccelInput& before, const AccelInput& now, double maxArea,
+           double& area, std::uint32_t threads);
 
 } // namespace rt::accel

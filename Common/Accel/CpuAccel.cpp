@@ -24,7 +24,7 @@ constexpr std::size_t kBlockChunk = 1u << 9;      // blocks that a thread fills 
 constexpr std::size_t kBlockSlice = 1u << 15;     // blocks after which it is worth to give back what told their lanes
 constexpr std::size_t kLargeBytes = 1u << 20;     // of a tree that traversal fetches ahead
 constexpr std::size_t kLeastRefitted = 1u << 12;  // primitives and instances: a new tree takes no time, and is better
-constexpr double kMaxWear = 1.25;                 // growth of what boxes are visited, before a new tree is due
+constexpr double kMaxWear = 1.25;                 // of boxes in which rays look, before a new tree is due
 constexpr std::size_t kManyPrimitives = 1u << 16; // beside whose memory it is worth a millisecond to give some back
 
 template <class Block>
@@ -214,12 +214,10 @@ std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSe
 bool CpuAccel::follow(const AccelInput& before, const AccelInput& now, std::uint32_t threads) {
     if (sameInput(before, now)) return true;
     const std::size_t primitives = now.spheres.size() + now.quads.size() + now.triangles.size() + now.rounds.size();
-    const bool isWorn = builtArea_ && area_ > kMaxWear * *builtArea_;
-    if (isWorn || primitives + now.instances.size() < kLeastRefitted) return false;
+    if (primitives + now.instances.size() < kLeastRefitted) return false;
     if (view_.isLinear || !canRefit(*storage_, view_.root, before, now)) return false;
     if (!builtArea_) area_ = builtArea_.emplace(areaOf(storage_->nodes, view_.root));
-    area_ += refit(*storage_, view_.root, before, now, threads);
-    return true;
+    return refit(*storage_, view_.root, before, now, kMaxWear * *builtArea_, area_, threads);
 }
 
 std::size_t CpuAccel::bytes() const {

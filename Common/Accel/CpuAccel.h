@@ -31,8 +31,8 @@ class CpuAccel {
     ~CpuAccel();
 
     // Becomes that of another version of the scene it was built of, where only places and forms differ: trees stay, and
-    // boxes change. False: it is as it was, and must be built anew; so it is also where trees are small, or no longer
-    // good as too much has moved.
+    // boxes change. False: it is as it was, and must be built anew; so it is also where trees are small, or would no
+    // longer be good as too much has moved.
     bool follow(const AccelInput& before, const AccelInput& now, std::uint32_t threads);
 
     const AccelView& view() const { return view_; } // points into this object

@@ -15,7 +15,7 @@
 namespace rt::scene {
 namespace {
 
-void expectSame(const CompiledScene& a, const CompiledScene& b) {
+void expectSameScene(const CompiledScene& a, const CompiledScene& b) {
     const auto compare = [](const char* name, const auto& x, const auto& y) {
         ASSERT_EQ(x.size(), y.size()) << name;
         EXPECT_TRUE(x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0) << name;
@@ -47,7 +47,7 @@ TEST(CompileMemory, EditedScenesAreThoseCompiledFromScratch) {
         if (i % 3 == 0) continue; // several edits at once
         const auto remembered = compileScene(scene, remembering);
         done.clear();
-        expectSame(*remembered, *compileScene(scene));
+        expectSameScene(*remembered, *compileScene(scene));
         if (HasFailure()) FAIL() << "after edit " << i;
     }
 }

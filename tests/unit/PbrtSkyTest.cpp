@@ -18,18 +18,18 @@ namespace rt::scene {
 namespace {
 
 using glm::dvec3;
-constexpr double kPi = std::numbers::pi;
 
 // The direction of a place of the square: P. Clarberg's map as he states it, from the square to the sphere.
 dvec3 fromSquare(double s, double t) {
     const double u = 2 * s - 1, v = 2 * t - 1, a = std::abs(u), b = std::abs(v), d = 1 - (a + b);
-    const double r = 1 - std::abs(d), phi = (r == 0 ? 1 : (b - a) / r + 1) * kPi / 4;
+    const double r = 1 - std::abs(d), phi = (r == 0 ? 1 : (b - a) / r + 1) * std::numbers::pi / 4;
     const double width = r * std::sqrt(2 - r * r);
     return {std::copysign(std::cos(phi), u) * width, std::copysign(std::sin(phi), v) * width,
             std::copysign(1 - r * r, d)};
 }
 dvec3 fromLatLong(double s, double t) {
-    return {std::cos(2 * kPi * s) * std::sin(kPi * t), std::sin(2 * kPi * s) * std::sin(kPi * t), std::cos(kPi * t)};
+    return {std::cos(2 * std::numbers::pi * s) * std::sin(std::numbers::pi * t),
+            std::sin(2 * std::numbers::pi * s) * std::sin(std::numbers::pi * t), std::cos(std::numbers::pi * t)};
 }
 
 // Its colours tell directions: 0.5 + 0.5 d.
