@@ -27,7 +27,7 @@ std::string sceneText(const std::string& source) {
 }
 
 app::SceneRequest requestOf(const app::Options& options, const std::string& source) {
-    return {source, options.oneSidedLights, options.camera, options.assetsBelow};
+    return {source, options.oneSidedLights, options.camera, options.assetsBelow, options.moment};
 }
 
 std::shared_ptr<Scene> compileSource(const std::string& source, const app::Options& options) {

@@ -63,14 +63,13 @@ int run(const std::vector<std::string>& arguments, rt::app::Communicator* ranks)
     return static_cast<int>(rt::app::runSession(*options, engineFactory(*options, ranks), ranks));
 }
 
-// As a rank other than 0, whose messages are rank 0's. False: rank 0 has nothing to render.
+// As a rank other than 0, whose messages are rank 0's. False: rank 0 has not ended it yet.
 bool follow(const std::vector<std::string>& arguments, rt::app::Communicator& ranks) {
     std::ostream nowhere(nullptr);
     const auto options = rt::app::parseOptions(kProgram, arguments, nowhere);
     if (!options || options->window || options->command != rt::app::Command::Render) return false;
     rt::setUpLog({kProgram, true, false, ""});
-    rt::app::followSession(*options, engineFactory(*options, &ranks), ranks);
-    return true;
+    return rt::app::followSession(*options, engineFactory(*options, &ranks), ranks);
 }
 
 } // namespace

@@ -112,7 +112,7 @@ int run(const std::vector<std::string>& arguments, rt::app::Communicator* ranks)
     return static_cast<int>(options->window ? showWindow(*options) : render(*options, ranks));
 }
 
-// As a rank other than 0, whose messages are rank 0's. False: rank 0 has nothing to render.
+// As a rank other than 0, whose messages are rank 0's. False: rank 0 has not ended it yet.
 bool follow(const std::vector<std::string>& arguments, rt::app::Communicator& ranks) {
     std::ostream nowhere(nullptr);
     const auto options = rt::app::parseOptions(kGpuProgram, arguments, nowhere);
@@ -120,8 +120,7 @@ bool follow(const std::vector<std::string>& arguments, rt::app::Communicator& ra
     rt::setUpLog({kGpuProgram, true, false, ""});
     Device device(*options, &ranks);
     const auto makeEngine = [&] { return device.makeEngine(); };
-    rt::app::followSession(*options, makeEngine, ranks);
-    return true;
+    return rt::app::followSession(*options, makeEngine, ranks);
 }
 
 } // namespace

@@ -25,13 +25,13 @@ endmacro()
 
 rt_module(shared rt-shared Common/Shared)
 install(DIRECTORY Common/Shared DESTINATION ${headers_folder}/Common COMPONENT development FILES_MATCHING PATTERN *.h)
-rt_module(core rt-core Common/Core CpuFeatures Error Hash Interruption Log Parallel Paths)
+rt_module(core rt-core Common/Core CpuFeatures Error Hash Interruption Log Parallel Paths Printable)
 rt_module(accel rt-accel Common/Accel AccelInput AccelView Box Build/BvhBuilder Bvh CpuAccel Traverse/RayQuery)
 rt_module(image rt-image Common/Image Convergence Denoise/Denoiser Display ErrorEstimate Film FilmTiles Flip Image
           ImageIo ImageRows Metrics Statistics)
 rt_module(scene rt-scene Common/Scene Affine Boxed Builtin/BuiltinScenes Builtin/SceneBuilder CameraRecord CompiledScene
-          Compiler/Bounds Compiler/SceneCompiler FramingCamera Gltf/GltfLoader Json/SceneJson Obj/ObjLoader Origins
-          Pbrt/PbrtLoader SceneDesc Silhouettes Studio)
+          Compiler/Bounds Compiler/SceneCompiler FramingCamera Gltf/GltfLoader Json/SceneJson Moment Obj/ObjLoader
+          Origins Pbrt/PbrtLoader SceneDesc Silhouettes Studio)
 rt_module(render rt-render Common/Render Engine FilmEstimate FilmRun ForwardingEngine Names PictureDenoiser Progress
           RenderParams Settings Stopwatch)
 rt_module(cpu rt-cpu RayTracingCPU CpuEngine)

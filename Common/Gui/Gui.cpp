@@ -236,7 +236,7 @@ void Gui::take(const std::filesystem::path& file) {
                 settings.saveFolder = file.parent_path().string();
             return;
         case BrowseFor::Export:
-            return exporting.start(state.source, assetsBelow, file.string());
+            return exporting.start(state.source, state.moment, assetsBelow, file.string());
         case BrowseFor::SaveScene:
             editor.save(file.string());
     }

@@ -27,7 +27,8 @@ app::InteractiveSession::Setup sessionSetup(const app::Options& options, const W
     setup.makeEngine = program.makeEngine;
     setup.engine = settings.engine;
     setup.request = settings.request;
-    setup.scene = {settings.scene, settings.request.oneSidedLights, options.camera, options.assetsBelow};
+    setup.scene = {settings.scene, settings.request.oneSidedLights, options.camera, options.assetsBelow,
+                   options.moment};
     // A file that was open the last time may be gone by now.
     if (options.given.count("--scene") == 0) setup.fallbackScene = app::GuiSettings().scene;
     setup.atEnd = endFiles(options, settings);

@@ -75,6 +75,19 @@ testing::AssertionResult endsWith(const Outcome& outcome, int exitCode, const st
 
 #ifdef __linux__
 
+// Frames of a sequence are whole pictures, each of one rank.
+TEST_F(Ranks, EachRendersItsShareOfASequence) {
+    const Arguments flags = {"--headless", "--spp", "2", "--width", "16", "--height", "16", "--frames", "0..4", "-o"};
+    Arguments shared = flags, alone = flags;
+    shared.push_back("ranks.pfm");
+    alone.insert(alone.end(), {path("alone.pfm"), "-q"});
+    const Outcome outcome = mpirun(3, shared);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    ASSERT_EQ(cpu(alone).exitCode, 0);
+    for (const std::string number : {".0000.pfm", ".0001.pfm", ".0002.pfm", ".0003.pfm", ".0004.pfm"})
+        EXPECT_TRUE(bytesOf("ranks" + number) == bytesOf("alone" + number)) << number;
+}
+
 // What all other tests here, the benchmark and docs/many-machines.md count on: more ranks than processors, bound to none
 // of them, who know how many they are.
 TEST_F(Ranks, StartAsTheLauncherIsTold) {

@@ -18,6 +18,7 @@
 #include "Common/Render/Engine.h"
 #include "Common/Render/Names.h"
 #include "Common/Render/Settings.h"
+#include "Common/Scene/Moment.h"
 
 namespace rt::app {
 
@@ -113,6 +114,7 @@ struct SessionState {
 
     std::uint64_t sceneSerial = 0;             // grows with each scene; 0: none yet
     std::string source;                        // of the scene, as it was asked for
+    scene::Moment moment;                      // likewise
     std::optional<FileFingerprint> sourceMark; // of that file, as it was read
     std::uint64_t sceneLoads = 0;              // grows with each that was loaded, also anew
     std::uint64_t sceneReads = 0;              // grows with each that was read from its source

@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <iomanip>
+#include <limits>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -57,6 +59,12 @@ std::vector<std::string> argumentsFor(const OtherJob& job, const fs::path& pictu
     std::vector<std::string> list = {"--headless",     "--no-config", "--progress-every",
                                      kProgressSeconds, "--scene",     job.scene.source};
     if (!job.scene.assetsBelow.empty()) list.insert(list.end(), {"--assets-below", job.scene.assetsBelow});
+    if (const scene::Moment& moment = job.scene.moment; moment != scene::Moment()) {
+        std::ostringstream time;
+        time << std::setprecision(std::numeric_limits<double>::max_digits10) << moment.time;
+        list.insert(list.end(), {"--time", time.str()});
+        if (!moment.animation.empty()) list.insert(list.end(), {"--animation", moment.animation});
+    }
     list.insert(list.end(), {"--camera", CameraController::toText(job.camera), "--one-sided-lights",
                              nameOf(kOnOff, job.scene.oneSidedLights)});
     const std::vector<std::string> settings = flagsFor(job.settings, picture, statistics);

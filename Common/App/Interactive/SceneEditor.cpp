@@ -34,6 +34,7 @@ void SceneEditor::end() {
 
 void SceneEditor::follow(const SessionState& state) {
     source_ = state.source;
+    moment_ = state.moment;
     if (std::exchange(sceneReads_, state.sceneReads) != state.sceneReads) end();
     if (isThere(saving_)) {
         try {
@@ -57,10 +58,10 @@ void SceneEditor::follow(const SessionState& state) {
 void SceneEditor::begin() {
     if (document_ || reading_.valid() || source_.empty()) return;
     callOff_ = std::make_shared<std::atomic<bool>>(false);
-    const auto read = [source = source_, assetsBelow = assetsBelow_, callOff = callOff_] {
+    const auto read = [source = source_, moment = moment_, assetsBelow = assetsBelow_, callOff = callOff_] {
         const Interruptible interruptible(*callOff);
         const ReadsBelow confined(assetsBelow, source);
-        scene::SceneDesc scene = loadScene(source);
+        scene::SceneDesc scene = loadScene(source, moment);
         scene::SceneDesc copy = scene;
         return Read(std::move(scene), std::move(copy));
     };

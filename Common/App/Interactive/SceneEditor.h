@@ -13,6 +13,7 @@
 
 #include "Common/App/Interactive/InteractiveSession.h"
 #include "Common/Scene/Edit/SceneDocument.h"
+#include "Common/Scene/Moment.h"
 
 namespace rt::app {
 
@@ -67,6 +68,7 @@ class SceneEditor {
     InteractiveSession& session_;
     const std::string assetsBelow_;
     std::string source_;           // of the scene that there is
+    scene::Moment moment_;         // that it is posed at
     std::uint64_t sceneReads_ = 0; // that this has followed
     std::optional<scene::SceneDocument> document_;
     std::optional<scene::ObjectPath> selection_;

@@ -15,12 +15,13 @@ SceneExport::~SceneExport() {
     callOff_ = true;
 }
 
-void SceneExport::start(const std::string& source, const std::string& assetsBelow, const std::string& file) {
+void SceneExport::start(const std::string& source, const scene::Moment& moment, const std::string& assetsBelow,
+                        const std::string& file) {
     if (file_.valid()) file_.wait();
-    file_ = std::async(std::launch::async, [this, source, assetsBelow, file] {
+    file_ = std::async(std::launch::async, [this, source, moment, assetsBelow, file] {
         const Interruptible interruptible(callOff_);
         const ReadsBelow confined(assetsBelow, source);
-        writeText(file, scene::toJson(loadScene(source)));
+        writeText(file, scene::toJson(loadScene(source, moment)));
         return file;
     });
 }

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "Common/Scene/Moment.h"
+
 namespace rt::app {
 
 class SceneExport {
@@ -14,8 +16,9 @@ class SceneExport {
     SceneExport(const SceneExport&) = delete;
     SceneExport& operator=(const SceneExport&) = delete;
 
-    // After the one before, if that is not done yet. `assetsBelow`: as --assets-below.
-    void start(const std::string& source, const std::string& assetsBelow, const std::string& file);
+    // After the one before, if that is not done yet. `assetsBelow`: as --assets-below; `moment`: as --time.
+    void start(const std::string& source, const scene::Moment& moment, const std::string& assetsBelow,
+               const std::string& file);
     // Once, when it is done: the file. Throws what has kept it from being written.
     std::optional<std::string> takeResult();
 

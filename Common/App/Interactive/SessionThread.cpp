@@ -176,6 +176,7 @@ void SessionThread::adopt(LoadedScene loaded) {
         state.stage.clear();
         state.scene = loaded_.scene;
         state.source = loaded_.request.source;
+        state.moment = loaded_.request.moment;
         state.sourceMark = loaded_.mark;
         state.seconds.load = loaded_.seconds;
         ++state.sceneLoads;
@@ -187,9 +188,11 @@ void SessionThread::adopt(LoadedScene loaded) {
 
 void SessionThread::nameScene(const std::string& file) {
     loaded_.request.source = file;
+    loaded_.request.moment = {}; // which the file is written at
     loaded_.mark = markOf(file);
     state_.update([&](SessionState& state) {
         state.source = file;
+        state.moment = {};
         state.sourceMark = loaded_.mark;
         ++state.sceneLoads;
     });

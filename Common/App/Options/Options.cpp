@@ -5,6 +5,7 @@
 
 #include "Common/App/Options/Description.h"
 #include "Common/App/Options/FlagSet.h"
+#include "Common/App/Options/MotionFlags.h"
 #include "Common/App/Session/FeatureNames.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Error.h"
@@ -344,6 +345,7 @@ OptionParser::OptionParser(const std::string& program, bool isScripted)
                                                     (program == kGpuProgram ? "GPU" : "CPU") +
                                                     ". Any two of --width, --height, --aspect give the size.")) {
     addScene(*flags_, *parsed_);
+    addMotion(*flags_, parsed_->options);
     addImage(*flags_, parsed_->options);
     addPart(*flags_, parsed_->options);
     addEstimator(*flags_, parsed_->options.settings);
@@ -373,6 +375,7 @@ std::optional<Options> OptionParser::parse(std::vector<std::string> arguments, s
     settleDenoise(flags, parsed);
     settleErrorEstimate(parsed.options);
     settleFiles(parsed.options);
+    settleFrames(flags, parsed.options);
     settlePolicy(flags, parsed);
     settleValidation(parsed);
     const auto note = [&](const std::string& flag) {

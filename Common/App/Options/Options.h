@@ -12,6 +12,7 @@
 #include "Common/Manual/Page.h"
 #include "Common/Render/Names.h"
 #include "Common/Render/Settings.h"
+#include "Common/Scene/Moment.h"
 
 namespace rt::app {
 
@@ -36,6 +37,12 @@ struct TileShare {
     bool operator==(const TileShare&) const = default;
 };
 
+// Of a sequence, the last one too.
+struct FrameRange {
+    std::uint32_t first = 0, last = 0;
+    bool operator==(const FrameRange&) const = default;
+};
+
 struct Options {
     std::string program; // "ray-tracing-cpu" or "ray-tracing-gpu"
     Command command = Command::Render;
@@ -46,6 +53,9 @@ struct Options {
     std::string scene = "cornell-box-lights"; // id or file
     std::string camera;                       // its pose as JSON; empty: the scene's
     std::string assetsBelow;                  // the folder that the scene's files must lie in; empty: anywhere
+    scene::Moment moment;                     // at which an animated scene is posed
+    std::optional<FrameRange> frames;         // one picture, without a number
+    double frameRate = 24;                    // of frames, a second
     bool oneSidedLights = true;
     SizeRequest size;
     RenderSettings settings;        // complete but for width and height, which may depend on the scene
@@ -62,11 +72,12 @@ struct Options {
     std::string reference;
     std::string stats; // "-": standard output
 
-    std::optional<double> timeLimit;   // seconds
-    std::optional<double> targetError; // relMSE
-    std::optional<double> saveEvery;   // seconds
-    std::string checkpoint;            // empty: none is written
-    std::string resume;                // empty: start anew
+    std::optional<double> timeLimit;     // seconds
+    std::optional<double> targetError;   // relMSE
+    std::optional<double> saveEvery;     // seconds
+    std::string checkpoint;              // empty: none is written
+    bool keepsFinishedCheckpoint = true; // also of a render that has reached its end
+    std::string resume;                  // empty: start anew
 
     std::uint32_t threads = 0; // 0: all
     Policy policy = Policy::Par;

@@ -50,7 +50,8 @@ void noticeCutOff(std::uint32_t maxDepth, double share) {
 
 void RenderJob::load() {
     const Stopwatch watch;
-    auto scene = compile(SceneRequest{options_.scene, options_.oneSidedLights, options_.camera, options_.assetsBelow});
+    auto scene = compile(
+        SceneRequest{options_.scene, options_.oneSidedLights, options_.camera, options_.assetsBelow, options_.moment});
     for (const std::string& notice : scene->notices) logWarning(scene->id + ": " + notice);
     take(std::move(scene), 0);
     statistics_.seconds.load = watch.seconds();
@@ -134,8 +135,9 @@ void RenderJob::write(const std::atomic<bool>& cancel) {
     std::vector<std::string> failures = std::exchange(failures_, {});
     if (!lost.empty()) failures.push_back(lost);
     const auto saveCheckpoint = [&] { save(options_.checkpoint, cancel); };
-    const bool isSaved =
-        !options_.checkpoint.empty() && attempt(failures, "cannot write " + options_.checkpoint, saveCheckpoint);
+    const bool isEnd = statistics_.stoppedBy != StopReason::Interrupted && statistics_.stoppedBy != StopReason::Failure;
+    const bool keeps = !options_.checkpoint.empty() && (options_.keepsFinishedCheckpoint || !isEnd);
+    const bool isSaved = keeps && attempt(failures, "cannot write " + options_.checkpoint, saveCheckpoint);
     const OutputResult outputs = writeOutputs(options_, scene_->camera, film, *engine_);
     failures.insert(failures.end(), outputs.failures.begin(), outputs.failures.end());
     statistics_.seconds.write = watch.seconds();

@@ -15,7 +15,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Short, and read back as the same number.
-std::string exactly(float value) {
+template <typename Number>
+std::string exactly(Number value) {
     char text[32];
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
@@ -28,6 +29,8 @@ Json argumentList(const Options& options, const scene::CameraDesc& camera, const
         list.push_back(value);
     };
     add("--scene", options.scene);
+    if (!options.moment.animation.empty()) add("--animation", options.moment.animation);
+    if (options.moment.time != 0) add("--time", exactly(options.moment.time));
     add("--camera", CameraController::toText(camera));
     add("--width", std::to_string(s.width));
     add("--height", std::to_string(s.height));

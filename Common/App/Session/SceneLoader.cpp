@@ -95,8 +95,10 @@ void SceneLoader::rename(const std::string& source) {
         const std::scoped_lock lock(mutex_);
         const bool isBusy = next_ || current_;
         edited_.source = source;
+        edited_.moment = {};
         if (last_.edits == 0) return; // another one has been asked for
         last_.source = handedOver_.source = source;
+        last_.moment = handedOver_.moment = {}; // which that file is written at
         if (isBusy) ask(last_);
     }
     wake_.notify_one();
@@ -116,7 +118,8 @@ bool SceneLoader::isWanted(const SceneRequest& request) const {
 
 void SceneLoader::open(const std::string& source) {
     const SceneRequest last = lastRequest();
-    request({source, last.oneSidedLights, {}, last.assetsBelow, 0});
+    const bool isAgain = source == last.source; // the file has changed
+    request({source, last.oneSidedLights, {}, last.assetsBelow, isAgain ? last.moment : scene::Moment()});
 }
 
 bool SceneLoader::setOneSidedLights(bool on) {

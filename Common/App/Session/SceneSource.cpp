@@ -91,23 +91,44 @@ std::string kindOf(const std::filesystem::path& path) {
     return kind == ".gz" ? kindOf(path.stem()) + kind : kind;
 }
 
+// What surrounds a model follows from its start, and stays where it is while the model moves: the studio, and the view
+// where the file has no camera.
+scene::SceneDesc loadAnimatedModel(const std::filesystem::path& path, const scene::Moment& moment) {
+    scene::SceneDesc scene = scene::loadGltfScene(path, moment);
+    if (moment.time == 0) {
+        scene::addStudioIfUnlit(scene, scene::boundsOfMeshes(scene));
+        return scene;
+    }
+    const scene::SceneDesc start = scene::loadGltfScene(path, {moment.animation, 0});
+    if (scene.cameras.empty()) scene.camera = start.camera;
+    scene::addStudioIfUnlit(scene, scene::boundsOfMeshes(start));
+    return scene;
+}
+
 } // namespace
 
-scene::SceneDesc loadScene(const std::string& source) {
+scene::SceneDesc loadScene(const std::string& source, const scene::Moment& moment) {
     std::filesystem::path path(source);
     const std::string extension = kindOf(path);
     using Load = scene::SceneDesc (*)(const std::filesystem::path&);
-    static const std::map<std::string, Load> loaders = {
-        {".json", scene::loadSceneFile}, {".obj", scene::loadObjScene},   {".gltf", scene::loadGltfScene},
-        {".glb", scene::loadGltfScene},  {".pbrt", scene::loadPbrtScene}, {".pbrt.gz", scene::loadPbrtScene}};
+    static const std::map<std::string, Load> loaders = {{".json", scene::loadSceneFile},
+                                                        {".obj", scene::loadObjScene},
+                                                        {".pbrt", scene::loadPbrtScene},
+                                                        {".pbrt.gz", scene::loadPbrtScene}};
     const auto loader = loaders.find(extension);
-    if (loader == loaders.end()) return scene::findBuiltinScene(source);
+    const bool isGltf = extension == ".gltf" || extension == ".glb";
+    if (loader == loaders.end() && !isGltf) {
+        scene::SceneDesc scene = scene::findBuiltinScene(source);
+        noticeStandstill(moment, scene.notices);
+        return scene;
+    }
     std::error_code none;
     if (path.is_relative() && !std::filesystem::exists(path, none)) path = findAsset("scenes" / path).value_or(path);
+    if (isGltf) return loadAnimatedModel(path, moment);
     scene::SceneDesc scene = loader->second(path);
+    noticeStandstill(moment, scene.notices);
     // Files of scenes, as those of models do not, say what light there is.
-    const bool isModel = extension == ".obj" || extension == ".gltf" || extension == ".glb";
-    if (isModel) scene::addStudioIfUnlit(scene, scene::boundsOfMeshes(scene));
+    if (extension == ".obj") scene::addStudioIfUnlit(scene, scene::boundsOfMeshes(scene));
     return scene;
 }
 
@@ -120,7 +141,7 @@ std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc
 
 std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request) {
     const ReadsBelow confined(request.assetsBelow, request.source);
-    return compile(loadScene(request.source), request);
+    return compile(loadScene(request.source, request.moment), request);
 }
 
 std::shared_ptr<const scene::CompiledScene> compileKept(const scene::SceneDesc& desc, const SceneRequest& request,

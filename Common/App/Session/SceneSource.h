@@ -5,6 +5,7 @@
 #include <string>
 
 #include "Common/Scene/CompiledScene.h"
+#include "Common/Scene/Moment.h"
 #include "Common/Scene/SceneDesc.h"
 
 namespace rt::scene {
@@ -14,8 +15,9 @@ struct CompileMemory;
 namespace rt::app {
 
 // A .json scene file, an .obj, .gltf, .glb or .pbrt file, by a path of its own or within the assets' folder "scenes",
-// or the id of a built-in scene. A model that brings no light stands in a studio (Studio.h). Throws InputError.
-scene::SceneDesc loadScene(const std::string& source);
+// or the id of a built-in scene. A model that brings no light stands in a studio (Studio.h), which is the same at all
+// moments. Throws InputError, and UsageError for an animation that there is not.
+scene::SceneDesc loadScene(const std::string& source, const scene::Moment& moment = {});
 
 // With its textures; with generated ones in place of files that have a stand-in, where asked for. Throws InputError.
 std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights,
@@ -27,6 +29,7 @@ struct SceneRequest {
     bool oneSidedLights = true;
     std::string pose = {};        // or name of the camera, as --camera takes it; empty: the scene's own
     std::string assetsBelow = {}; // the folder that the scene's files must lie in; empty: anywhere
+    scene::Moment moment = {};    // as --animation and --time say
     std::uint64_t edits = 0;      // grows with what has been edited since; 0: the scene is as the source has it
     bool operator==(const SceneRequest&) const = default;
 };

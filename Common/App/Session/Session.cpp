@@ -7,11 +7,15 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "Common/App/Platform.h"
 #include "Common/App/Ranks/LocalRank.h"
+#include "Common/App/Ranks/Message.h"
 #include "Common/App/Ranks/RankedEngine.h"
+#include "Common/App/Ranks/Ranks.h"
+#include "Common/App/Session/Frames.h"
 #include "Common/App/Session/Interrupt.h"
 #include "Common/App/Session/Outputs.h"
 #include "Common/App/Session/RenderJob.h"
@@ -90,10 +94,46 @@ void HeadlessRender::sample() {
 
 void exportScene(const Options& options) {
     const ReadsBelow confined(options.assetsBelow, options.scene);
-    scene::SceneDesc scene = loadScene(options.scene);
+    scene::SceneDesc scene = loadScene(options.scene, options.moment);
     if (!options.camera.empty()) scene.camera = cameraOf(options.camera, scene);
     for (const std::string& notice : scene.notices) logWarning(scene.id + ": " + notice);
     writeText(options.exportFile, scene::toJson(scene));
+}
+
+// One after the other; of several ranks each has its share. An interrupted one ends the sequence.
+ExitCode renderFrames(const Options& options, const EngineFactory& makeEngine, const Communicator* ranks) {
+    const auto rank = static_cast<std::uint32_t>(ranks == nullptr ? 0 : ranks->rank());
+    const auto step = static_cast<std::uint32_t>(ranks == nullptr ? 1 : ranks->size());
+    for (std::uint32_t frame = options.frames->first + rank; frame <= options.frames->last; frame += step) {
+        Options one = optionsOfFrame(options, frame);
+        if (rank > 0) one.quiet = true;
+        const std::string name = "frame " + std::to_string(frame);
+        if (isRendered(one)) {
+            logInfo(name + ": is there");
+            continue;
+        }
+        logInfo(name + ": " + one.outputs.front());
+        const ExitCode code = HeadlessRender(one).run(makeEngine);
+        if (code != ExitCode::Done) return code;
+        removeCheckpoint(one);
+    }
+    return ExitCode::Done;
+}
+
+// Until all other ranks have rendered their frames. Throws what has kept one from it.
+void waitForFrames(Communicator& ranks) {
+    for (int missing = ranks.size() - 1; missing > 0;) {
+        auto received = ranks.receive();
+        if (!received) {
+            std::this_thread::sleep_for(kPollInterval);
+            continue;
+        }
+        const Message message = toMessage(std::move(received->message));
+        if (message.kind == MessageKind::Rendered) --missing;
+        if (message.kind == MessageKind::Failure)
+            throw Error(static_cast<ExitCode>(message.fields.at("code").get<int>()),
+                        "rank " + std::to_string(received->from) + ": " + message.fields.at("what").get<std::string>());
+    }
 }
 
 } // namespace
@@ -113,12 +153,21 @@ ExitCode runSession(Options options, const EngineFactory& makeEngine, Communicat
         case Command::Render:
             break;
     }
-    return HeadlessRender(std::move(options), ranks).run(makeEngine);
+    if (!options.frames) return HeadlessRender(std::move(options), ranks).run(makeEngine);
+    const ExitCode code = renderFrames(options, makeEngine, ranks);
+    if (ranks != nullptr && code == ExitCode::Done) waitForFrames(*ranks);
+    return code;
 }
 
-void followSession(Options options, const EngineFactory& makeEngine, Communicator& ranks) {
+bool followSession(Options options, const EngineFactory& makeEngine, Communicator& ranks) {
+    if (options.frames) {
+        renderFrames(options, makeEngine, &ranks);
+        ranks.send(0, toBytes({MessageKind::Rendered, nullptr, {}}));
+        return false;
+    }
     options.reference.clear();
     HeadlessRender(std::move(options), &ranks).follow(makeEngine);
+    return true;
 }
 
 } // namespace rt::app

@@ -16,7 +16,8 @@ using EngineFactory = std::function<std::unique_ptr<Engine>()>;
 // of which RunMain.h makes the line and the exit code. As rank 0 of `ranks`, if there are any, it shares a render out.
 ExitCode runSession(Options options, const EngineFactory& makeEngine, Communicator* ranks = nullptr);
 
-// As another rank: takes part in rank 0's render of the same options. Returns when rank 0 has ended it.
-void followSession(Options options, const EngineFactory& makeEngine, Communicator& ranks);
+// As another rank: takes part in rank 0's render of the same options, and returns when rank 0 has ended it; of a
+// sequence it renders frames of its own. Returns whether it has got rank 0's End.
+bool followSession(Options options, const EngineFactory& makeEngine, Communicator& ranks);
 
 } // namespace rt::app

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "Common/Scene/Compiler/Bounds.h"
 #include "Common/Scene/Counted.h"
 #include "Common/Scene/Gltf/GltfAccessor.h"
+#include "Common/Scene/Gltf/GltfAnimation.h"
 #include "Common/Scene/Gltf/GltfBudget.h"
 #include "Common/Scene/Gltf/GltfCameras.h"
 #include "Common/Scene/Gltf/GltfDraco.h"
@@ -30,6 +32,7 @@
 #include "Common/Scene/Gltf/GltfSkin.h"
 #include "Common/Scene/Gltf/GltfValues.h"
 #include "Common/Scene/Json/JsonNode.h"
+#include "Common/Scene/Moment.h"
 #include "Common/Scene/Placing.h"
 
 namespace rt::scene {
@@ -47,8 +50,12 @@ GltfFile readWhole(const std::filesystem::path& path) {
 
 class Importer {
   public:
-    explicit Importer(const std::filesystem::path& path)
-        : file_(readWhole(path)), budget_(file_), materials_(file_, scene_), nodes_(file_, budget_) {
+    Importer(const std::filesystem::path& path, Moment moment)
+        : file_(readWhole(path)),
+          moment_(std::move(moment)),
+          budget_(file_),
+          materials_(file_, scene_),
+          nodes_(file_, moment_, budget_) {
         scene_.id = path.filename().string();
         scene_.title = printable(scene_.id);
     }
@@ -112,6 +119,7 @@ class Importer {
         std::shared_ptr<const std::vector<Affine>> joints;
         std::string place;
         MeshData data;
+        std::size_t rescaled; // vertices, see readPrimitive()
     };
 
     // The primitives of a mesh, none of them read yet.
@@ -125,7 +133,7 @@ class Importer {
             const std::string place = "/meshes/" + std::to_string(posed.mesh) + "/primitives/" + std::to_string(i);
             if (primitive.extensions.count("KHR_draco_mesh_compression") > 0 && !isTriangles(primitive))
                 file_.fail(place, "is compressed by Draco, which this build lacks");
-            surfaces.push_back({&primitive, materials_.use(primitive.material), posed, joints, place, {}});
+            surfaces.push_back({&primitive, materials_.use(primitive.material), posed, joints, place, {}, 0});
             budget_.spend(elementCount(file_, primitive, useOf(surfaces.back())), place);
         }
     }
@@ -174,7 +182,7 @@ class Importer {
         for (const auto& [posed, where] : places) addSurfaces(posed, surfaces);
         parallelFor(0, surfaces.size(), [&](std::size_t i) {
             Surface& surface = surfaces[i];
-            surface.data = readPrimitive(file_, *surface.primitive, useOf(surface), surface.place);
+            surface.data = readPrimitive(file_, *surface.primitive, useOf(surface), surface.place, surface.rescaled);
         });
         auto next = surfaces.begin();
         UniqueNames names;
@@ -182,6 +190,7 @@ class Importer {
             std::vector<ObjectDesc> objects;
             Bounds bounds;
             for (; next != surfaces.end() && &next->posed == &posed; ++next) {
+                rescaled_ += next->rescaled;
                 if (next->data.triangles.empty()) {
                     ++withoutTriangles_;
                     continue;
@@ -253,17 +262,28 @@ class Importer {
                               " left out: the transform of the node cannot be inverted");
         if (withoutJoints_ > 0)
             notices.push_back(counted(withoutJoints_, "skin is", "skins are") + " left out: vertices have no joints");
-        if (const auto& animations = file_.model.animations; !animations.empty()) {
-            const std::string name = '"' + printable(animations.front().name) + '"';
-            notices.push_back(animations.size() == 1 ? "the animation stands still: this is its start"
-                                                     : "animations stand still: this is the start of " +
-                                                           (name == "\"\"" ? "the first" : name) + " of " +
-                                                           std::to_string(animations.size()));
-        }
+        if (rescaled_ > 0)
+            notices.push_back("weights of joints are scaled to the sum 1 at " +
+                              counted(rescaled_, "vertex", "vertices"));
+        addAnimationNotice();
         if (file_.model.scenes.size() > 1) notices.push_back("scenes other than the default one are left out");
     }
 
+    // Tells those who asked for no moment that there are others.
+    void addAnimationNotice() {
+        const std::vector<std::string> names = animationNames(file_);
+        if (names.empty()) return noticeStandstill(moment_, scene_.notices);
+        if (moment_ != Moment()) return;
+        std::ostringstream text;
+        text << "animation \"" << names.front() << '"';
+        if (names.size() > 1) text << ", the first of " << names.size() << ",";
+        text << " is shown at its start: --time poses it, from 0 to " << nodes_.animationSeconds() << " s";
+        if (names.size() > 1) text << "; --animation chooses another";
+        scene_.notices.push_back(text.str());
+    }
+
     const GltfFile file_;
+    const Moment moment_;
     GltfBudget budget_;
     SceneDesc scene_;
     GltfMaterials materials_;
@@ -272,12 +292,13 @@ class Importer {
     std::size_t withoutTriangles_ = 0;
     std::size_t flattened_ = 0;     // places of meshes
     std::size_t withoutJoints_ = 0; // nodes with a skin that moves nothing
+    std::size_t rescaled_ = 0;      // vertices whose joints' weights are no shares
 };
 
 } // namespace
 
-SceneDesc loadGltfScene(const std::filesystem::path& path) {
-    return Importer(path).run();
+SceneDesc loadGltfScene(const std::filesystem::path& path, const Moment& moment) {
+    return Importer(path, moment).run();
 }
 
 } // namespace rt::scene

@@ -161,7 +161,7 @@ std::uint64_t elementCount(const GltfFile& file, const tinygltf::Primitive& prim
 }
 
 MeshData readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitive, const PrimitiveUse& use,
-                       const std::string& place) {
+                       const std::string& place, std::size_t& rescaled) {
     interruptionPoint();
     MeshData mesh;
     if (!isTriangles(primitive) || elementCount(file, primitive, use) == 0) return mesh;
@@ -190,7 +190,7 @@ MeshData readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitiv
         for (glm::dvec4& color : mesh.colors) color.a = 1;
     const bool needsTangents = use.tangentSet && !(*use.tangentSet == 0 ? mesh.uvs : mesh.uvs2).empty();
     if (needsTangents && !mesh.normals.empty()) mesh.tangents = reader.vectors<4>("TANGENT");
-    if (!use.joints.empty()) applySkin(file, primitive, use.joints, elements, place, mesh);
+    if (!use.joints.empty()) rescaled = applySkin(file, primitive, use.joints, elements, place, mesh);
     checkPositions(file, mesh, place);
     if (needsTangents && mesh.tangents.empty()) addTangents(mesh, *use.tangentSet);
     return mesh;

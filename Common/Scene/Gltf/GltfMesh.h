@@ -1,5 +1,6 @@
 // The triangles of glTF's primitives.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -27,8 +28,9 @@ std::uint64_t elementCount(const GltfFile& file, const tinygltf::Primitive& prim
 // A primitive of triangles, strips or fans, with what its material uses of it, in its pose. Texture coordinates run
 // upwards, as everywhere else here. Without normals it is faceted. With `tangentSet`, tangents of that set of texture
 // coordinates are computed where the file has none: MikkTSpace's weighting by angles; a vertex between mirrored parts
-// is split. Throws InputError naming `place`.
+// is split. `rescaled`: how many vertices have weights of joints that do not sum up to 1. Throws InputError naming
+// `place`.
 MeshData readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitive, const PrimitiveUse& use,
-                       const std::string& place);
+                       const std::string& place, std::size_t& rescaled);
 
 } // namespace rt::scene

@@ -36,8 +36,8 @@ Affine composed(const glm::dvec3& translation, const glm::dvec4& rotation, const
     return {rotate * glm::dmat3(scale.x, 0, 0, 0, scale.y, 0, 0, 0, scale.z), translation};
 }
 
-GltfNodes::GltfNodes(const GltfFile& file, GltfBudget& budget)
-    : file_(file), poses_(startOfAnimation(file, budget)), placeOf_(file.model.nodes.size(), kNowhere) {
+GltfNodes::GltfNodes(const GltfFile& file, const Moment& moment, GltfBudget& budget)
+    : file_(file), pose_(poseAt(file, moment, budget)), placeOf_(file.model.nodes.size(), kNowhere) {
     place();
 }
 
@@ -48,10 +48,10 @@ const Affine* GltfNodes::find(std::size_t node) const {
 std::vector<double> GltfNodes::weights(std::size_t index) const {
     const tinygltf::Node& node = file_.model.nodes[index];
     const tinygltf::Mesh& mesh = file_.model.meshes[static_cast<std::size_t>(node.mesh)];
-    const auto pose = poses_.find(index);
-    std::vector<double> weights = pose != poses_.end() && pose->second.weights ? *pose->second.weights
-                                  : node.weights.empty()                       ? mesh.weights
-                                                                               : node.weights;
+    const auto pose = pose_.nodes.find(index);
+    std::vector<double> weights = pose != pose_.nodes.end() && pose->second.weights ? *pose->second.weights
+                                  : node.weights.empty()                            ? mesh.weights
+                                                                                    : node.weights;
     weights.resize(std::min(weights.size(), morphTargetCount(mesh)));
     while (!weights.empty() && weights.back() == 0) weights.pop_back();
     return weights;
@@ -77,7 +77,7 @@ Affine GltfNodes::localOf(std::size_t index) const {
     if (check(node.translation, 3, "translation")) translation = vector3(node.translation);
     if (check(node.rotation, 4, "rotation")) rotation = vector4(node.rotation);
     if (check(node.scale, 3, "scale")) scale = vector3(node.scale);
-    if (const auto pose = poses_.find(index); pose != poses_.end()) {
+    if (const auto pose = pose_.nodes.find(index); pose != pose_.nodes.end()) {
         translation = pose->second.translation.value_or(translation);
         rotation = pose->second.rotation.value_or(rotation);
         scale = pose->second.scale.value_or(scale);

@@ -1,8 +1,6 @@
 // The hierarchy of a glTF file: where its nodes are.
 #pragma once
 #include <cstddef>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +11,11 @@
 #include "Common/Scene/Gltf/GltfAnimation.h"
 #include "Common/Scene/Gltf/GltfBudget.h"
 #include "Common/Scene/Gltf/GltfFile.h"
+#include "Common/Scene/Moment.h"
 
 namespace rt::scene {
 
-// Of the default scene, or the first, or all nodes where there is none; as the first animation begins.
+// Of the default scene, or the first, or all nodes where there is none; as an animation poses them.
 class GltfNodes {
   public:
     struct Placed {
@@ -24,20 +23,22 @@ class GltfNodes {
         Affine toWorld;
     };
 
-    // Throws InputError naming file and place, also where nodes form no tree. The file must outlive this.
-    GltfNodes(const GltfFile& file, GltfBudget& budget);
+    // Throws what poseAt() throws, and InputError naming file and place where nodes form no tree. The file must outlive
+    // this.
+    GltfNodes(const GltfFile& file, const Moment& moment, GltfBudget& budget);
 
     const std::vector<Placed>& placed() const { return placed_; } // parents before their children
     const Affine* find(std::size_t node) const;                   // to the world; null: not of the scene
     // Of morph targets of a node's mesh, up to the last that is not 0.
     std::vector<double> weights(std::size_t node) const;
+    double animationSeconds() const { return pose_.seconds; } // of the animation's last keyframe
 
   private:
     Affine localOf(std::size_t node) const;
     void place();
 
     const GltfFile& file_;
-    std::map<std::size_t, NodePose> poses_;
+    AnimationPose pose_;
     std::vector<Placed> placed_;
     std::vector<std::size_t> placeOf_; // in placed_, by node
 };

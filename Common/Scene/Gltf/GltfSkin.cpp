@@ -1,8 +1,10 @@
 #include "Common/Scene/Gltf/GltfSkin.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -19,11 +21,17 @@ std::string setName(const char* name, int set) {
     return std::string(name) + std::to_string(set);
 }
 
-// The maps of all vertices, each a mean of those of its joints. Weights are to sum up to 1, but for rounding; a vertex
-// that has none stays with the first joint.
-std::vector<Affine> vertexMaps(const GltfFile& file, const tinygltf::Primitive& primitive,
-                               std::span<const Affine> joints, const std::vector<std::uint32_t>* elements,
-                               const std::string& place, std::size_t count) {
+constexpr double kRounding = 0.02; // of the sum of eight weights in bytes, each within half of 1/255
+
+struct VertexMaps {
+    std::vector<Affine> maps;
+    std::size_t rescaled = 0;
+};
+
+// The maps of all vertices, each a mean of those of its joints. Weights are scaled to the sum 1; a vertex that has none
+// stays with the first joint.
+VertexMaps vertexMaps(const GltfFile& file, const tinygltf::Primitive& primitive, std::span<const Affine> joints,
+                      const std::vector<std::uint32_t>* elements, const std::string& place, std::size_t count) {
     std::vector<Affine> maps(count, Affine{glm::dmat3(0), glm::dvec3(0)});
     std::vector<double> sums(count, 0);
     const std::size_t vertices = accessorCount(file, primitive.attributes.at("POSITION"));
@@ -49,7 +57,9 @@ std::vector<Affine> vertexMaps(const GltfFile& file, const tinygltf::Primitive& 
                 sums[i] += weight[i][c];
             }
     }
+    std::size_t rescaled = 0;
     for (std::size_t i = 0; i < count; ++i) {
+        if (std::abs(sums[i] - 1) > kRounding) ++rescaled;
         if (sums[i] > 0) {
             maps[i].linear /= sums[i];
             maps[i].offset /= sums[i];
@@ -57,7 +67,7 @@ std::vector<Affine> vertexMaps(const GltfFile& file, const tinygltf::Primitive& 
             maps[i] = joints.front();
         }
     }
-    return maps;
+    return {std::move(maps), rescaled};
 }
 
 // What normals are mapped by, but for a positive factor: the cofactors, which need no inverse; a mirror keeps the side.
@@ -102,9 +112,9 @@ std::vector<Affine> jointMaps(const GltfFile& file, int index, const GltfNodes& 
     return maps;
 }
 
-void applySkin(const GltfFile& file, const tinygltf::Primitive& primitive, std::span<const Affine> joints,
-               const std::vector<std::uint32_t>* elements, const std::string& place, MeshData& mesh) {
-    const std::vector<Affine> maps = vertexMaps(file, primitive, joints, elements, place, mesh.positions.size());
+std::size_t applySkin(const GltfFile& file, const tinygltf::Primitive& primitive, std::span<const Affine> joints,
+                      const std::vector<std::uint32_t>* elements, const std::string& place, MeshData& mesh) {
+    const auto [maps, rescaled] = vertexMaps(file, primitive, joints, elements, place, mesh.positions.size());
     for (std::size_t i = 0; i < maps.size(); ++i) {
         mesh.positions[i] = maps[i].point(mesh.positions[i]);
         if (!mesh.normals.empty())
@@ -117,6 +127,7 @@ void applySkin(const GltfFile& file, const tinygltf::Primitive& primitive, std::
     }
     for (glm::uvec3& t : mesh.triangles)
         if (maps[t.x].mirrors()) std::swap(t.y, t.z);
+    return rescaled;
 }
 
 } // namespace rt::scene

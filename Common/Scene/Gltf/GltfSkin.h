@@ -1,5 +1,7 @@
 // Skins: meshes that follow the joints of a skeleton.
 #pragma once
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,8 +21,9 @@ int jointSetCount(const tinygltf::Primitive& primitive);
 std::vector<Affine> jointMaps(const GltfFile& file, int skin, const GltfNodes& nodes);
 
 // Moves positions, normals and tangents by the joints, as the primitive's attributes weigh them; the node of a skinned
-// mesh moves nothing. `elements`: the vertices of the primitive that the mesh has; null: all.
-void applySkin(const GltfFile& file, const tinygltf::Primitive& primitive, std::span<const Affine> joints,
-               const std::vector<std::uint32_t>* elements, const std::string& place, MeshData& mesh);
+// mesh moves nothing. `elements`: the vertices of the primitive that the mesh has; null: all. Returns how many vertices
+// have weights whose sum is not 1, but for what small integers round by.
+std::size_t applySkin(const GltfFile& file, const tinygltf::Primitive& primitive, std::span<const Affine> joints,
+                      const std::vector<std::uint32_t>* elements, const std::string& place, MeshData& mesh);
 
 } // namespace rt::scene

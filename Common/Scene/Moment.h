@@ -1,0 +1,40 @@
+// Which moment of which animation a scene is posed at.
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Printable.h"
+
+namespace rt::scene {
+
+struct Moment {
+    std::string animation = {}; // by name; empty: the first
+    double time = 0;            // seconds
+    bool operator==(const Moment&) const = default;
+};
+
+// Which of a scene's animations is meant; none where there are none. Throws UsageError naming those that there are.
+inline std::optional<std::size_t> chosenAnimation(const std::vector<std::string>& names, const Moment& moment) {
+    if (moment.animation.empty()) return names.empty() ? std::nullopt : std::optional<std::size_t>(0);
+    const auto found = std::find(names.begin(), names.end(), moment.animation);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    constexpr std::size_t kShown = 20;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i) list += (i == 0 ? "" : ", ") + names[i];
+    if (names.size() > kShown) list += " and " + std::to_string(names.size() - kShown) + " more";
+    throw UsageError("--animation " + printable(moment.animation) + ": " +
+                     (names.empty() ? "the scene has no animations" : "allowed is one of the scene's: " + list));
+}
+
+// Of a scene in which nothing moves: throws UsageError where an animation is asked for, and adds a notice where a time
+// is.
+inline void noticeStandstill(const Moment& moment, std::vector<std::string>& notices) {
+    static_cast<void>(chosenAnimation({}, moment));
+    if (moment.time != 0) notices.push_back("nothing moves in it: --time counts for nothing");
+}
+
+} // namespace rt::scene
