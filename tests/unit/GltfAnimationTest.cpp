@@ -1,5 +1,5 @@
 // glTF: animations at any time, against values computed by hand.
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -112,8 +112,11 @@ TEST_F(GltfAnimation, RotationsTurnAtConstantSpeedTheShorterWay) {
 TEST_F(GltfAnimation, StepsHoldWhatTheyHave) {
     const int node = addTriangle();
     animate(node, "translation", sampler({0, 1, 2}, {1, 0, 0, 2, 0, 0, 3, 0, 0}, "VEC3", "STEP"));
-    const std::array<std::array<double, 2>, 6> cases = {{{0, 1}, {0.99, 1}, {1, 2}, {1.5, 2}, {2, 3}, {5, 3}}};
-    for (const auto& [time, x] : cases) expectNear(placed(load(time), {0, 0, 0}), {x, 0, 0});
+    struct Case {
+        double time, x;
+    };
+    for (const auto& [time, x] : {Case{0, 1}, Case{0.99, 1}, Case{1, 2}, Case{1.5, 2}, Case{2, 3}, Case{5, 3}})
+        expectNear(placed(load(time), {0, 0, 0}), {x, 0, 0});
 }
 
 // At a quarter of two seconds: 0.84375 v0 + 2 * 0.140625 b0 + 0.15625 v1 - 2 * 0.046875 a1.
