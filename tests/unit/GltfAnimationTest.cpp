@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-const double kHalf = std::sqrt(0.5);
+const double kRootHalf = std::sqrt(0.5);
 
 class GltfAnimation : public testing::Test {
   protected:
@@ -161,12 +161,12 @@ TEST_F(GltfAnimation, AStripBentByTwoJoints) {
     const int matrices = gltf.addAccessor(gltf.addView(inverseBind), 5126, "MAT4", 2);
     gltf.add("skins", {{"joints", {shoulder, elbow}}, {"inverseBindMatrices", matrices}});
     gltf.addNode({{"mesh", gltf.addMesh(primitive)}, {"skin", 0}});
-    animate(elbow, "rotation", sampler({0, 2}, {0, 0, 0, 1, 0, 0, float(kHalf), float(kHalf)}, "VEC4"));
+    animate(elbow, "rotation", sampler({0, 2}, {0, 0, 0, 1, 0, 0, float(kRootHalf), float(kRootHalf)}, "VEC4"));
     const SceneDesc straight = load(0), half = load(1), bent = load(2);
     expectNear(meshOf(straight).positions.at(5), {2, 1, 0});
     expectNear(meshOf(half).positions.at(0), {0, 0, 0});
-    expectNear(meshOf(half).positions.at(4), {1 + kHalf, kHalf, 0});
-    expectNear(meshOf(half).positions.at(5), {1, 2 * kHalf, 0});
+    expectNear(meshOf(half).positions.at(4), {1 + kRootHalf, kRootHalf, 0});
+    expectNear(meshOf(half).positions.at(5), {1, 2 * kRootHalf, 0});
     expectNear(meshOf(bent).positions.at(2), {1, 0, 0}); // the joint itself
     expectNear(meshOf(bent).positions.at(3), {0.5, 0.5, 0});
     expectNear(meshOf(bent).positions.at(4), {1, 1, 0});
@@ -182,7 +182,7 @@ TEST_F(GltfAnimation, CamerasAndLightsMoveWithTheirNodes) {
     const int camera = gltf.add("nodes", {{"camera", 0}, {"translation", {0, 0, 5}}});
     const int lamp = gltf.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     const int dolly = gltf.addNode({{"children", {camera, lamp}}});
-    const std::vector<float> turn = {0, 0, 0, 1, 0, float(kHalf), 0, float(kHalf)}; // to a quarter about y
+    const std::vector<float> turn = {0, 0, 0, 1, 0, float(kRootHalf), 0, float(kRootHalf)}; // to a quarter about y
     gltf.add("animations", {{"samplers", {sampler({0, 1}, {0, 0, 0, 0, 4, 0}, "VEC3"), sampler({0, 1}, turn, "VEC4")}},
                             {"channels",
                              {{{"sampler", 0}, {"target", {{"node", dolly}, {"path", "translation"}}}},
