@@ -246,6 +246,7 @@ bool DeviceDenoiser::run(std::uint64_t samplesOfHalf, std::uint32_t dependentSid
     DenoiseLaunch launch = makeLaunch();
     launch.usualDepth = usualDepth();
     launch.candidates = kDenoiseBandwidths + (samplesOfHalf >= shared::kDenoiseRawSamples ? 1 : 0);
+    launch.mixed = samplesOfHalf >= shared::kDenoiseMixSamples ? 1 : 0;
     launch.dependentSide = dependentSide;
     const auto mean = [&](std::uint32_t use) {
         launch.use = use;

@@ -42,7 +42,7 @@ float filterShare(ivec2 pixel) {
 // The weight of each candidate.
 vec4 sharesAt(ivec2 pixel) {
     vec4 shares = launch.values.at[pixelIndex(pixel)];
-    if (launch.candidates <= kRawCandidate) return shares;
+    if (launch.mixed == 0u) return shares;
     float share = filterShare(pixel);
     shares *= share;
     shares[kRawCandidate] += 1.0f - share;

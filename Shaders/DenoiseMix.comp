@@ -56,7 +56,7 @@ void main() {
     if (isInside(pixel)) {
         vec4 shares = shareOfChoices(pixel);
         launch.values.at[pixelIndex(pixel)] = shares;
-        if (launch.candidates > kRawCandidate) { // else nothing is mixed
+        if (launch.mixed != 0u) {
             DenoiseMix mix = mixAt(shares, pixel);
             sharedMix[lane] = vec2(mix.gain, mix.change);
         }

@@ -57,6 +57,7 @@ struct DenoiseLaunch {
     float usualDepth;
     uint firstRow; // of work groups, that are filtered
     uint use;      // of means, by flags
+    uint mixed;    // 1: with the raw picture
 };
 
 // Push constants of the passes of live quality. No plane has a border.

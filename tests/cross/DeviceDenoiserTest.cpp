@@ -15,6 +15,7 @@
 #include "Common/Image/Denoise/Denoiser.h"
 #include "Common/Image/Denoise/LiveDenoiser.h"
 #include "Common/Image/Metrics.h"
+#include "Common/Shared/Denoise/DenoiseMix.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "RayTracingGPU/DeviceDenoiser.h"
 #include "RayTracingGPU/EmbeddedShaders.h"
@@ -132,6 +133,12 @@ TEST_F(DeviceDenoiserTest, LeavesPixelsAsTheyAre) {
     const DenoiseInput input = noisyInput(97, 61, 10'000'000);
     expectTheSame(input, 2);
     EXPECT_GT(denoiseOnDevice(input, 2).shares.back(), 0.01);
+}
+
+// On either side of the number of samples from which on pictures are mixed.
+TEST_F(DeviceDenoiserTest, MixesAsTheCpuDoes) {
+    expectTheSame(noisyInput(97, 61, shared::kDenoiseMixSamples - 1), 1);
+    expectTheSame(noisyInput(97, 61, shared::kDenoiseMixSamples), 1);
 }
 
 TEST_F(DeviceDenoiserTest, NeedsNoFeatures) {

@@ -100,5 +100,19 @@ TEST(DenoiseMix, DetailsAreNotLost) {
     EXPECT_LT(withMix, 0.9 * withoutMix);
 }
 
+// A flat picture with few bright samples, which are most of the sums of a cell: mixed with them it is worse.
+TEST(DenoiseMix, FewSamplesHaveNoSay) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> chance(0, 1);
+    const image::Image truth = picture(kMixSide, kMixSide, [](auto, auto, auto) { return 0.2f; });
+    image::DenoiseInput input;
+    for (image::Image* half : {&input.halfA, &input.halfB})
+        *half = picture(kMixSide, kMixSide, [&](auto, auto, auto) { return chance(random) < 0.002f ? 50.1f : 0.1f; });
+    input.samplesOfHalf = shared::kDenoiseMixSamples - 1;
+    const double withoutMix = relMseFrom(image::denoise(input, 1).picture, truth);
+    input.samplesOfHalf = shared::kDenoiseMixSamples;
+    EXPECT_LT(withoutMix, 0.9 * relMseFrom(image::denoise(input, 1).picture, truth));
+}
+
 } // namespace
 } // namespace rt::test

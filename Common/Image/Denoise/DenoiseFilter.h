@@ -7,6 +7,7 @@
 #include "Common/Image/Denoise/Denoiser.h"
 #include "Common/Image/Denoise/Planes.h"
 #include "Common/Shared/Denoise/DenoiseFit.h"
+#include "Common/Shared/Denoise/DenoiseMix.h"
 #include "Common/Shared/Denoise/DenoiseWeights.h"
 
 namespace rt::image {
@@ -27,6 +28,7 @@ struct Halves {
 
     // With fewer samples too many pixels look free of noise.
     bool mayStayRaw() const { return samplesOfHalf >= shared::kDenoiseRawSamples; }
+    bool isMixed() const { return samplesOfHalf >= shared::kDenoiseMixSamples; }
 };
 
 // What nearly all pixels that see something are nearer than; 1 where there are none.

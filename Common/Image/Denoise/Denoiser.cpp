@@ -254,7 +254,7 @@ DenoiseErrorSums finishRow(const Halves& halves, const Choice& weights, std::siz
 void finish(const Halves& halves, Denoised& result, std::size_t threads) {
     Choice weights = choose(halves, threads);
     for (Plane& weight : weights) weight = boxMean(weight, shared::kDenoiseBlendReach, threads);
-    if (halves.mayStayRaw()) mixWithRaw(halves, weights, threads);
+    if (halves.isMixed()) mixWithRaw(halves, weights, threads);
     for (std::size_t i = 0; i < kDenoiseCandidates; ++i) result.shares[i] = meanOf(weights[i]);
     const std::size_t width = result.picture.width, height = result.picture.height;
     Planes errors{Plane(width, height), Plane(width, height), Plane(width, height)};

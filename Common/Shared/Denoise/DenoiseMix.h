@@ -13,6 +13,9 @@ RT_SHARED_BEGIN
 
 const int kDenoiseCell = 16;                  // pixels a side
 RT_CONST float kDenoiseRelativeFloor = 0.01f; // of relMSE's denominator
+// Of each half, from which on a picture is mixed: with fewer, few bright samples are most of a cell's sums, and what
+// they pretend costs more than the details are worth.
+const uint kDenoiseMixSamples = 32u;
 
 // Numerator and denominator of w.
 struct DenoiseMix {
