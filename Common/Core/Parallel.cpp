@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <memory>
 #include <new>
 #include <system_error>
 
@@ -18,13 +19,13 @@ bool canStartThreads() {
 namespace {
 
 // Bytes, more than oneTBB needs to begin. Where it gets none while it begins, release 2021.11 (of Ubuntu 24.04) waits
-// for a lock that it holds itself.
-constexpr std::size_t kLibraryBytes = 4 << 20;
+// for a lock that it holds itself. It maps its memory, and so many are mapped, too, by glibc (over 32 MiB) and given back.
+constexpr std::size_t kLibraryBytes = 40 << 20;
 
 // Whether that many threads, each with its stack, can exist at the same time, and there is memory left for the library.
 bool haveRoomForThreads(std::size_t count) {
     std::mutex gate;
-    std::vector<char> ofLibrary;
+    std::unique_ptr<char[]> ofLibrary;
     std::vector<std::thread> threads;
     bool all = true;
     {
@@ -33,10 +34,10 @@ bool haveRoomForThreads(std::size_t count) {
             threads.reserve(count);
             const auto pass = [&gate, &ofLibrary] {
                 const std::scoped_lock passing(gate);
-                if (!ofLibrary.empty()) ofLibrary.back() = 1; // is used, so that no compiler leaves it out
+                if (ofLibrary) ofLibrary[0] = 1; // is used, so that no compiler leaves it out
             };
             while (threads.size() < count) threads.emplace_back(pass);
-            ofLibrary.resize(kLibraryBytes);
+            ofLibrary = std::make_unique_for_overwrite<char[]>(kLibraryBytes);
         } catch (const std::system_error&) {
             all = false;
         } catch (const std::bad_alloc&) {
