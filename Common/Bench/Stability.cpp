@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <memory>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -134,15 +135,14 @@ class StabilitySuite {
     }
 
   private:
-    Rendered render(const CompiledScene& compiled, std::uint32_t spp, const app::RenderSettings& base = {},
-                    std::uint32_t side = kSide) {
+    Rendered render(const std::shared_ptr<const CompiledScene>& compiled, std::uint32_t spp,
+                    const app::RenderSettings& base = {}, std::uint32_t side = kSide) {
         app::RenderSettings settings = base;
         settings.width = settings.height = side;
         settings.spp = spp;
         settings.replicates = std::min(kReplicates, spp);
-        // The scene outlives its use: no ownership is passed.
-        engine_.setScene(std::shared_ptr<const CompiledScene>(std::shared_ptr<void>(), &compiled), nullptr);
-        engine_.reset(compiled.camera, settings);
+        engine_.setScene(compiled, nullptr);
+        engine_.reset(compiled->camera, settings);
         while (!engine_.renderSome({std::chrono::seconds(1), nullptr}).finished) {
         }
         Rendered r;
@@ -157,7 +157,7 @@ class StabilitySuite {
     }
     Rendered render(const SceneDesc& desc, std::uint32_t spp, const app::RenderSettings& base = {},
                     std::uint32_t side = kSide) {
-        return render(*compileScene(desc), spp, base, side);
+        return render(compileScene(desc), spp, base, side);
     }
 
     void add(const std::string& name, double value, const std::string& criterion, bool pass) {
@@ -359,7 +359,7 @@ class StabilitySuite {
             options.generatedAssets = true;
             return compileScene(findBuiltinScene(id), options);
         };
-        addMean("furnace-mixed", render(*compiled("furnace-mixed"), 128), 1, 1e-3);
+        addMean("furnace-mixed", render(compiled("furnace-mixed"), 128), 1, 1e-3);
         for (const char* id :
              {"cornell-box-lights", "veach-mis", "triangle-lights", "many-lights:100", "next-week-final"}) {
             double nonfinite = 0;
@@ -367,7 +367,7 @@ class StabilitySuite {
                                         app::LightSampling::Mixture, app::LightSampling::Bsdf}) {
                 app::RenderSettings settings;
                 settings.lightSampling = sampling;
-                nonfinite += static_cast<double>(render(*compiled(id), 64, settings).nonfinite);
+                nonfinite += static_cast<double>(render(compiled(id), 64, settings).nonfinite);
             }
             add(std::string(id) + ": samples that are not finite", nonfinite, "= 0", nonfinite == 0);
         }

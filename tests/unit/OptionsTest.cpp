@@ -206,7 +206,7 @@ TEST_F(OptionsTest, ErrorsNameFlagValueAndWhatIsAllowed) {
               "samples, denoised or denoised-error");
     EXPECT_EQ(error({"--aov", "albedo,", "-o", "a.png"}), "--aov albedo,: must be a list like a,b,c");
     EXPECT_EQ(error({"-o", ""}), "--output '': must be the name of a file");
-    EXPECT_EQ(error({"--frames", "3"}), "--frames: unknown flag; --help-all lists them all");
+    EXPECT_EQ(error({"--films", "3"}), "--films: unknown flag; --help-all lists them all");
     EXPECT_EQ(error({"cornell"}), "cornell: unknown flag; --help-all lists them all");
     for (const char* bad : {"nan", "inf", "-inf", "0", "-1", "1e400", "x", ""})
         EXPECT_EQ(error({"--time-limit", bad}).rfind("--time-limit ", 0), 0u) << bad;
@@ -430,7 +430,7 @@ TEST_F(OptionsTest, BadConfigurationFilesAreNamed) {
         EXPECT_EQ(message.rfind(file + ":2: ", 0), 0u) << line << " -> " << message;
         return message.substr(std::min(message.size(), (file + ":2: ").size()));
     };
-    EXPECT_EQ(second("frames = 3"), "\"frames\" is no flag; --help-all lists them all");
+    EXPECT_EQ(second("films = 3"), "\"films\" is no flag; --help-all lists them all");
     EXPECT_EQ(second("x = 3"), "\"x\" is no flag; --help-all lists them all");
     EXPECT_EQ(second("list-scenes = true"), "\"list-scenes\" can be given on the command line only");
     EXPECT_EQ(second("quiet = maybe"), "--quiet maybe: must be true or false");
