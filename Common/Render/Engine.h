@@ -159,8 +159,9 @@ struct DenoisedPicture;
 // Not thread-safe: one thread drives an engine. Order of calls: setScene, reset, renderSome until finished.
 struct Engine {
     virtual ~Engine() = default;
-    // Builds acceleration structures. A failure (rt::Error) leaves the previous scene in place. Returns false, with the
-    // previous scene in place, when cancelled.
+    // Builds acceleration structures, or changes those of the previous scene where little is new: the engine keeps the
+    // scene to compare it with the next one. A failure (rt::Error) leaves the previous scene in place. Returns false,
+    // with the previous scene in place, when cancelled.
     virtual bool setScene(std::shared_ptr<const scene::CompiledScene> scene, const std::atomic<bool>* cancel) = 0;
     // Starts a new film.
     virtual void reset(const scene::CameraDesc& camera, const RenderSettings& settings) = 0;
