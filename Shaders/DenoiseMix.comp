@@ -41,8 +41,8 @@ DenoiseMix mixAt(vec4 shares, ivec2 pixel) {
     DenoiseMix sum;
     sum.gain = sum.change = 0.0f;
     for (int channel = 0; channel < 3; channel++) {
-        DenoiseMix mix = denoiseMix(here.rawA[channel], here.rawB[channel], here.a.filtered[channel],
-                                    here.b.filtered[channel], here.errors[channel]);
+        DenoiseMix mix = denoiseMix(valueOf(here.a, here.rawA, channel), valueOf(here.b, here.rawB, channel),
+                                    here.errors[channel]);
         sum.gain += mix.gain;
         sum.change += mix.change;
     }

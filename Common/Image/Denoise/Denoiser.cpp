@@ -190,8 +190,7 @@ MixCells sumCells(const Halves& halves, const Choice& weights, std::size_t threa
             for (std::size_t x = 0; x < width; ++x)
                 for (std::size_t c = 0; c < 3; ++c) {
                     const Blended pixel = blendedAt(halves, weights, c, x, y);
-                    const shared::DenoiseMix mix =
-                        shared::denoiseMix(pixel.a.raw, pixel.b.raw, pixel.a.filtered, pixel.b.filtered, pixel.error);
+                    const shared::DenoiseMix mix = shared::denoiseMix(pixel.a, pixel.b, pixel.error);
                     cells.gain.row(row)[x / kCellSide] += mix.gain;
                     cells.change.row(row)[x / kCellSide] += mix.change;
                 }

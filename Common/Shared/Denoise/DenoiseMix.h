@@ -7,14 +7,14 @@
 // terms are summed over the pixels of a cell, in units of relMSE, since those of a pixel are mostly noise.
 #ifndef RT_SHARED_DENOISE_MIX_H
 #define RT_SHARED_DENOISE_MIX_H
-#include "Common/Shared/Base/Shim.h"
+#include "Common/Shared/Denoise/DenoiseWeights.h"
 
 RT_SHARED_BEGIN
 
 const int kDenoiseCell = 16;                  // pixels a side
 RT_CONST float kDenoiseRelativeFloor = 0.01f; // of relMSE's denominator
-// Of each half, from which on a picture is mixed: with fewer, few bright samples are most of a cell's sums, and what
-// they pretend costs more than the details are worth.
+// Of each half, from which on a picture is mixed: with fewer, a cell's sums are mostly noise, which costs more than the
+// details are worth.
 const uint kDenoiseMixSamples = 32u;
 
 // Numerator and denominator of w.
@@ -23,14 +23,26 @@ struct DenoiseMix {
     float change;
 };
 
-// Of one channel of a pixel. `raw` and `filtered`: halves of it. `error`: squared, of the mean of the filtered ones.
-RT_FN DenoiseMix denoiseMix(float rawA, float rawB, float filteredA, float filteredB, float error) {
-    float filtered = 0.5f * (filteredA + filteredB);
-    float change = filtered - 0.5f * (rawA + rawB);
-    float noise = 0.5f * (rawA - rawB); // whose square is the error of the mean of the raw halves
+// What is to be added to denoiseError() of one pixel where one half alone has met something bright. By that half no other
+// pixel is like this one, so that the other half stays as it is: its factor is nearly 1, though it has no noise. With the
+// mean of both factors most of the bright half's noise counts as let through, and what the filter took away as its error.
+// So each factor counts as far as its half was changed. Over whole pictures denoiseError() is nearer to the truth.
+RT_FN float denoiseMixCorrection(DenoisedValue a, DenoisedValue b) {
+    float changeA = (a.filtered - a.raw) * (a.filtered - a.raw);
+    float changeB = (b.filtered - b.raw) * (b.filtered - b.raw);
+    float noise = (a.raw - b.raw) * (a.raw - b.raw);
+    if (changeA + changeB <= 0.0f) return 0.0f;
+    return 0.5f * (a.ownFactor - b.ownFactor) * ((changeA - changeB) / (changeA + changeB)) * noise;
+}
+
+// Of one channel of a pixel, by its halves. `error`: squared, of the mean of the filtered ones.
+RT_FN DenoiseMix denoiseMix(DenoisedValue a, DenoisedValue b, float error) {
+    float filtered = 0.5f * (a.filtered + b.filtered);
+    float change = filtered - 0.5f * (a.raw + b.raw);
+    float noise = 0.5f * (a.raw - b.raw); // whose square is the error of the mean of the raw halves
     float unit = 1.0f / (filtered * filtered + kDenoiseRelativeFloor);
     DenoiseMix mix;
-    mix.gain = 0.5f * unit * (noise * noise - error + change * change);
+    mix.gain = 0.5f * unit * (noise * noise - error - denoiseMixCorrection(a, b) + change * change);
     mix.change = unit * change * change;
     return mix;
 }
