@@ -188,6 +188,21 @@ RT_CALL void weighSamples(const RenderParams& params, RecordLanes<DirectLight>& 
     }
 }
 
+// Those of principled vertices with lobes that the loops do not know, one by one.
+template <Features kFeatures>
+RT_CALL void weighRareSamples(const RenderParams& params, uint principled, RecordLanes<DirectLight>& direct,
+                              const PathLanes& lanes) {
+    eachLane(principled, [&](uint i) {
+        const Vertex v = vertexIn<kFeatures>(lanes, i);
+        if (!hasLobe(v.bsdf.lobes.others, kLobesRare)) return;
+        const float probability = lanesOf<&LightChoice::probability>(lanes.choices).at[i];
+        const bool isPunctualSample = isPunctual(kFeatures, get(lanes.lights, i));
+        set(direct, i,
+            weighSample(kFeatures, params, probability, isPunctualSample, get(lanes.lightSamples, i), v,
+                        get(lanes.throughput, i)));
+    });
+}
+
 // Principled materials apart from the others, and those of few lobes apart from those of all: each of the loops has one
 // formula to evaluate, and runs where some path needs it.
 template <Features kFeatures>
@@ -209,8 +224,9 @@ RT_FN void weighSamples(const RenderParams& params, uint lit, PathLanes& lanes) 
     if (others == 0u) {
         weighSamples<kPrincipled, 0u>(params, direct, lanes);
     } else {
-        weighSamples<kPrincipled, kLobesAll>(params, direct, lanes);
+        weighSamples<kPrincipled, kLobesLayered>(params, direct, lanes);
     }
+    if (has(kFeatures, kRareFeatures)) weighRareSamples<kPrincipled>(params, principled, direct, lanes);
     eachLane(principled, [&](uint i) { set(lanes.direct, i, get(direct, i)); });
 }
 

@@ -98,7 +98,7 @@ constexpr Features kAssetFeatures = kMeshFeatures | kFeatureInstances | kFeature
                                     kFeatureImages | kFeatureSkyImage | kFeaturePunctualLights;
 constexpr Features kBookFeatures =
     kFeatureAll & ~(kFeaturePrincipled | kFeatureVertexAttributes | kFeatureOpacity | kFeatureCoatNormal |
-                    kFeaturePunctualLights | kRoundFeatures | kRoundLightFeatures);
+                    kRareFeatures | kFeaturePunctualLights | kRoundFeatures | kRoundLightFeatures);
 
 template <Features kFeatures>
 constexpr Kernel makeKernel(const char* name) {

@@ -28,7 +28,13 @@ struct FieldsOf<VertexSamples>
 template <>
 struct FieldsOf<Hit> : Fields<FieldList<&Hit::t, &Hit::kind, &Hit::primitive, &Hit::instance, &Hit::u, &Hit::v>> {};
 
-// Omitted: what only kernels with kFeatureCoatNormal keep, in PathLanes::coatNormals.
+template <>
+struct FieldsOf<RareLobes> : Fields<FieldList<&RareLobes::stretch, &RareLobes::stretchedAlpha>> {};
+
+template <>
+struct FieldsOf<RareValues> : Fields<FieldList<&RareValues::anisotropy, &RareValues::stretch>> {};
+
+// Omitted: what only kernels with kFeatureCoatNormal or kRareFeatures keep, in PathLanes::coatNormals and rareLobes.
 template <>
 struct FieldsOf<PrincipledLobes>
     : Fields<FieldList<&PrincipledLobes::others, &PrincipledLobes::diffuse, &PrincipledLobes::f0, &PrincipledLobes::f90,
@@ -36,15 +42,17 @@ struct FieldsOf<PrincipledLobes>
                        &PrincipledLobes::glass, &PrincipledLobes::eta, &PrincipledLobes::thin, &PrincipledLobes::coat,
                        &PrincipledLobes::coatAlpha, &PrincipledLobes::diffuseShare, &PrincipledLobes::specularShare,
                        &PrincipledLobes::coatShare, &PrincipledLobes::glassShare>,
-             FieldList<&PrincipledLobes::coatNormal>> {};
+             FieldList<&PrincipledLobes::coatNormal, &PrincipledLobes::rare>> {};
 
+// Omitted: as above, in PathLanes::rareValues.
 template <>
 struct FieldsOf<PrincipledValues>
     : Fields<FieldList<&PrincipledValues::others, &PrincipledValues::metallic, &PrincipledValues::roughness,
                        &PrincipledValues::specular, &PrincipledValues::transmission, &PrincipledValues::clearcoat,
                        &PrincipledValues::clearcoatRoughness, &PrincipledValues::sheenRoughness,
                        &PrincipledValues::specularColor, &PrincipledValues::sheenColor, &PrincipledValues::ior,
-                       &PrincipledValues::thin, &PrincipledValues::glass>> {};
+                       &PrincipledValues::thin, &PrincipledValues::glass>,
+             FieldList<&PrincipledValues::rare>> {};
 
 // Omitted: what only kernels with principled materials keep, in PathLanes::lobes; of Vertex in PathLanes::values.
 template <>
@@ -87,6 +95,8 @@ struct PathLanes {
     RecordLanes<PrincipledValues> values;
     RecordLanes<PrincipledLobes> lobes; // of their bsdfs
     Vec3Lanes coatNormals;              // of these
+    RecordLanes<RareLobes> rareLobes;
+    RecordLanes<RareValues> rareValues;
     RecordLanes<VertexSamples> u;
     Vec3Lanes throughput;
     FloatLanes time;
@@ -111,6 +121,7 @@ RT_FN Vertex vertexIn(const PathLanes& lanes, uint i) {
     Vertex v = get(lanes.vertices, i);
     if (has(kFeatures, kFeaturePrincipled)) read(lanes.lobes, i, v.bsdf.lobes);
     if (has(kFeatures, kFeatureCoatNormal)) v.bsdf.lobes.coatNormal = get(lanes.coatNormals, i);
+    if (has(kFeatures, kRareFeatures)) read(lanes.rareLobes, i, v.bsdf.lobes.rare);
     return v;
 }
 
@@ -130,6 +141,7 @@ RT_FN void keepVertex(PathLanes& lanes, uint i, const Vertex& v) {
     if (!isPrincipled(kFeatures, v.bsdf)) return;
     set(lanes.values, i, v.values);
     if (has(kFeatures, kFeatureCoatNormal)) set(lanes.coatNormals, i, v.bsdf.lobes.coatNormal);
+    if (has(kFeatures, kRareFeatures)) set(lanes.rareValues, i, v.values.rare);
 }
 
 // Calls work(i) for each lane of `set`, a bit a lane.

@@ -60,14 +60,17 @@ RT_CALL void completeVertices(const CpuScene& scene, uint principled, uint layer
         values.others = 0u;
         const float cosine = cosines.at[i];
         set(lanes.lobes, i,
-            makeLobes(scene, values, v.bsdf.albedo, cosine, get(albedos, i), vec3(0.0f), cosine, v.front != 0u));
+            makeLobes(kFeatures, scene, values, v.bsdf.albedo, cosine, get(albedos, i), vec3(0.0f), cosine,
+                      v.front != 0u));
     }
     eachLane(layered, [&](uint i) {
         Vertex v = get(lanes.vertices, i);
         v.values = get(lanes.values, i);
+        if (has(kFeatures, kRareFeatures)) v.values.rare = get(lanes.rareValues, i);
         if (has(kFeatures, kFeatureCoatNormal)) v.bsdf.lobes.coatNormal = get(lanes.coatNormals, i);
         completeVertex(kFeatures, scene, v);
         set(lanes.lobes, i, v.bsdf.lobes);
+        if (has(kFeatures, kRareFeatures)) set(lanes.rareLobes, i, v.bsdf.lobes.rare);
     });
 }
 
@@ -87,7 +90,8 @@ RT_CALL void proposeReflections(PathLanes& lanes) {
     }
 }
 
-// Proposals of vertices with other lobes, one by one; what is transmitted is weighed at once.
+// Proposals of vertices with other lobes, one by one; what is transmitted, and by lobes that the loops do not know, is
+// weighed at once.
 template <Features kFeatures>
 RT_CALL void proposeLayers(uint layered, PathLanes& lanes) {
     eachLane(layered, [&](uint i) {
@@ -95,7 +99,8 @@ RT_CALL void proposeLayers(uint layered, PathLanes& lanes) {
         const vec3 wo = toLocal(makeFrame(v.shading), v.wo);
         BsdfSample s = absorbed();
         if (wo.z > 0.0f) s = proposePrincipled(kFeatures, v.bsdf, wo, get(lanes.u, i).bsdf);
-        if (s.transmitted != 0u) weighProposal(evalProposal(kFeatures, v.bsdf, wo, s), s);
+        if (s.transmitted != 0u || (has(kFeatures, kRareFeatures) && hasLobe(v.bsdf.lobes.others, kLobesRare)))
+            weighProposal(evalProposal(kFeatures, v.bsdf, wo, s), s);
         set(lanes.principled, i, s);
     });
 }
@@ -105,11 +110,12 @@ template <Features kFeatures, uint kOthers>
 RT_CALL void weighProposals(PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
         Vertex v = vertexIn<kFeatures>(lanes, i);
+        const uint weighed = has(kFeatures, kRareFeatures) ? v.bsdf.lobes.others & kLobesRare : 0u;
         v.bsdf.lobes.others = kOthers;
         const Frame frame = makeFrame(v.shading);
         BsdfSample s = get(lanes.principled, i);
         vec4 f = evalPrincipledReflection(kFeatures, v.bsdf.lobes, toLocal(frame, v.wo), s.wi);
-        if (hasLobe(kOthers, kLobeGlass)) f.w = s.transmitted == 0u ? f.w : 0.0f;
+        if (hasLobe(kOthers, kLobeGlass)) f.w = (s.transmitted | weighed) == 0u ? f.w : 0.0f;
         weighProposal(f, s);
         s.wi = normalize(toWorld(frame, s.wi));
         set(lanes.principled, i, s);
@@ -124,7 +130,7 @@ RT_FN void samplePrincipled(uint layered, PathLanes& lanes) {
         weighProposals<kFeatures, 0u>(lanes);
     } else {
         proposeLayers<kFeatures>(layered, lanes);
-        weighProposals<kFeatures, kLobesAll>(lanes);
+        weighProposals<kFeatures, kLobesLayered>(lanes);
     }
 }
 

@@ -147,6 +147,8 @@ struct PrincipledDesc {
     std::string clearcoatNormalTexture;        // of the clear coat alone, which else is smooth
     double clearcoatNormalScale = 1;
     std::optional<double> alphaCutoff; // opacity below it is 0, else 1; unset: opacity is a probability
+    double anisotropyRotation = 0;     // of the direction of rougher facets, from the tangent, in radians
+    std::string anisotropyTexture;     // that direction, 2 rg - 1, before it is rotated; empty: the tangent
     bool emitsColors = false;          // vertex colours multiply emission, too; light sampling leaves such surfaces out
     bool operator==(const PrincipledDesc&) const = default;
 };

@@ -141,6 +141,14 @@ TEST_F(GltfMaterials, Extensions) {
             .principled;
     EXPECT_EQ(std::get<glm::dvec3>(p.sheenColor), glm::dvec3(0.5, 0.4, 0.3));
     EXPECT_EQ(p.sheenRoughness.factor, 0.6);
+    p = extended("KHR_materials_anisotropy",
+                 {{"anisotropyStrength", 0.6}, {"anisotropyRotation", 1.57}, {"anisotropyTexture", {{"index", 0}}}})
+            .principled;
+    EXPECT_EQ(p.anisotropy.factor, 0.6);
+    EXPECT_EQ(p.anisotropy.channel, Channel::Blue);
+    EXPECT_EQ(p.anisotropyRotation, 1.57);
+    EXPECT_EQ(p.anisotropyTexture, p.anisotropy.texture);
+    EXPECT_EQ(image(p.anisotropyTexture).colorSpace, ColorSpace::Linear);
     const MaterialDesc glow =
         material({{"emissiveFactor", {1, 1, 0}},
                   {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 7}}}}}});

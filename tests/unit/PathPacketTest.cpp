@@ -270,8 +270,9 @@ TEST(PathPacket, PathsAreThoseOfStepPath) {
     for (const char* id :
          {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass", "next-week-final",
           "one-weekend-final", "many-lights:200", "veach-mis", RT_TEST_DATA_DIR "/scenes/principled.json",
-          RT_TEST_DATA_DIR "/scenes/lacquer.json", RT_TEST_DATA_DIR "/scenes/glass-instances.json",
-          RT_TEST_DATA_DIR "/scenes/sun.json", RT_TEST_DATA_DIR "/scenes/disks-and-cylinders.json"}) {
+          RT_TEST_DATA_DIR "/scenes/lacquer.json", RT_TEST_DATA_DIR "/scenes/gltf-extensions.json",
+          RT_TEST_DATA_DIR "/scenes/glass-instances.json", RT_TEST_DATA_DIR "/scenes/sun.json",
+          RT_TEST_DATA_DIR "/scenes/disks-and-cylinders.json"}) {
         const TracedScene scene(id);
         SCOPED_TRACE(id);
         compareEstimators(scene);

@@ -1,7 +1,9 @@
 // Principled surfaces for tests of their lobes: cases, their bsdfs, what these send out.
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "Common/Scene/Compiler/DirectionalAlbedos.h"
@@ -29,6 +31,7 @@ inline constexpr float kPrincipledIor = 1.5f;
 struct PrincipledTables : SceneArraysOf<std::vector> {
     explicit PrincipledTables(float ior) {
         directionalAlbedos = scene::directionalAlbedos();
+        stretchedAlbedos = scene::stretchedAlbedos();
         glassAlbedos = scene::glassAlbedos(ior);
     }
     operator SceneView() const { return viewOf(*this, {}); }
@@ -43,6 +46,7 @@ struct PrincipledCase {
     const char* name;
     float metallic = 0, transmission = 0, clearcoat = 0, sheen = 0;
     bool thin = false;
+    float anisotropy = 0;
 };
 inline constexpr PrincipledCase kPrincipledCases[] = {{"metal", 1},
                                                       {"dielectric"},
@@ -50,7 +54,16 @@ inline constexpr PrincipledCase kPrincipledCases[] = {{"metal", 1},
                                                       {"sheet", 0, 1, 0, 0, true},
                                                       {"clearcoat", 0, 0, 1},
                                                       {"sheen", 0, 0, 0, 0.8f},
-                                                      {"mixture", 0.3f, 0.5f, 0.5f, 0.5f}};
+                                                      {"mixture", 0.3f, 0.5f, 0.5f, 0.5f},
+                                                      {"brushed metal", 1, 0, 0, 0, false, 0.8f},
+                                                      {"brushed mixture", 0.3f, 0.5f, 0.5f, 0.5f, false, 0.6f}};
+
+// As tests are called.
+inline std::string principledCaseName(const PrincipledCase& which) {
+    std::string name = which.name;
+    std::ranges::replace(name, ' ', '_');
+    return name;
+}
 
 inline Principled principledOf(const PrincipledCase& which, float roughness) {
     const auto constant = [](float factor) { return ScaledChannel{factor, shared::kNone, 0}; };
@@ -63,6 +76,9 @@ inline Principled principledOf(const PrincipledCase& which, float roughness) {
     p.clearcoatRoughness = constant(roughness);
     p.sheenRoughness = constant(roughness);
     p.opacity = constant(1);
+    p.anisotropy = constant(which.anisotropy);
+    p.stretch = vec2(std::cos(0.4f), std::sin(0.4f));
+    p.stretchTexture = shared::kNone;
     p.specularColor = {vec3(1), shared::kNone};
     p.sheenColor = {vec3(which.sheen), shared::kNone};
     p.ior = kPrincipledIor;
@@ -78,9 +94,13 @@ inline Bsdf bsdfOf(const Principled& p, const vec3& albedo, const vec3& wo, bool
     b.kind = shared::kMaterialPrincipled;
     b.albedo = albedo;
     const PrincipledTables& tables = principledTables(p.ior);
-    const PrincipledValues values = principledValues(shared::kFeatureAll, tables, p, Surface{});
-    b.lobes = makeLobes(tables, values, albedo, wo.z, directionalAlbedo(tables, wo.z, values.roughness), coat,
-                        std::max(dot(coat, wo), 0.0f), front);
+    Surface surface{};
+    surface.tangent = vec4(1, 0, 0, 1);
+    PrincipledValues values = principledValues(shared::kFeatureAll, tables, p, surface);
+    addAnisotropy(shared::kFeatureAll, tables, p, surface, kUp, 1, values);
+    b.lobes = makeLobes(shared::kFeatureAll, tables, values, albedo, wo.z,
+                        facetsAlbedo(shared::kFeatureAll, tables, values, kUp, wo), coat, std::max(dot(coat, wo), 0.0f),
+                        front);
     return b;
 }
 

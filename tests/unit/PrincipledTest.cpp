@@ -72,7 +72,12 @@ TEST_P(PrincipledCases, WhiteFurnaceIsWhite) {
             const Bsdf b = bsdfOf(principledOf(GetParam(), roughness), vec3(1), wo);
             Mean mean;
             for (int i = 0; i < 1 << 14; ++i) mean.add(double(drawFrom(b, wo, uniform.pair()).weight.x));
-            EXPECT_TRUE(test::agrees(mean, 1, 0.012)) << roughness << ' ' << cosine;
+            // The table of stretched facets is coarser: it may leave a few percent more.
+            const double least = GetParam().anisotropy > 0 ? 0.93 : 0.988;
+            const double most = GetParam().anisotropy > 0 ? 1.001 : 1.012;
+            const double noise = 4 * mean.standardError();
+            EXPECT_GT(mean.mean(), least - noise) << roughness << ' ' << cosine;
+            EXPECT_LT(mean.mean(), most + noise) << roughness << ' ' << cosine;
         }
 }
 
@@ -95,7 +100,7 @@ TEST_P(PrincipledCases, AreFiniteEverywhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lobes, PrincipledCases, testing::ValuesIn(kPrincipledCases),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& info) { return test::principledCaseName(info.param); });
 
 // The lobes themselves, before tables scale them, are those of a physical surface.
 TEST(Principled, LobesAreReciprocal) {
@@ -105,7 +110,9 @@ TEST(Principled, LobesAreReciprocal) {
         b.kind = kMaterialPrincipled;
         b.albedo = vec3(1);
         b.lobes = noLobes();
-        b.lobes.others = kLobesAll;
+        b.lobes.others = i % 2 == 0 ? kLobesLayered : kLobesLayered | kLobeStretched;
+        b.lobes.rare.stretch = vec2(0.6f, 0.8f);
+        b.lobes.rare.stretchedAlpha = vec2(0.7f, 0.15f);
         b.lobes.f0 = vec3(0.2f, 0.5f, 1);
         b.lobes.f90 = vec3(1);
         b.lobes.sheen = vec3(0.3f);

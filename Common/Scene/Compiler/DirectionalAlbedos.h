@@ -9,6 +9,9 @@ namespace rt::scene {
 // entries: by quadrature, the first time that it is asked for.
 const std::vector<shared::vec3>& directionalAlbedos();
 
+// The table that stretchedAlbedo() reads, likewise.
+const std::vector<shared::vec2>& stretchedAlbedos();
+
 // What glassAlbedo() reads of one index of refraction, from outside and from inside. The last few are kept: a scene
 // that is read again mostly has those of before.
 std::vector<float> glassAlbedos(float ior);

@@ -122,10 +122,25 @@ void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
     p.normalScale = static_cast<float>(desc.normalScale);
     p.coatTexture = normalMap(desc.clearcoatNormalTexture);
     p.coatScale = static_cast<float>(desc.clearcoatNormalScale);
+    addAnisotropy(desc, p);
     p.alphaCutoff = desc.alphaCutoff ? static_cast<float>(*desc.alphaCutoff) : -1.0f;
     p.emitsColors = desc.emitsColors ? 1u : 0u;
     out_.principled.resize(out_.materials.size());
     out_.principled.push_back(p);
+}
+
+// A texture that is one colour everywhere becomes part of the rotation.
+void MaterialTable::addAnisotropy(const PrincipledDesc& desc, shared::Principled& p) {
+    p.stretch = shared::vec2(std::cos(desc.anisotropyRotation), std::sin(desc.anisotropyRotation));
+    p.stretchTexture = shared::kNone;
+    if (desc.anisotropy.factor == 0) return;
+    if (out_.stretchedAlbedos.empty()) out_.stretchedAlbedos = stretchedAlbedos();
+    if (desc.anisotropyTexture.empty()) return;
+    shared::vec3 color;
+    p.stretchTexture = textures_.resolve(desc.anisotropyTexture, color);
+    if (p.stretchTexture != shared::kNone) return;
+    const shared::vec2 d(2 * color.x - 1, 2 * color.y - 1);
+    p.stretch = shared::vec2(d.x * p.stretch.x - d.y * p.stretch.y, d.x * p.stretch.y + d.y * p.stretch.x);
 }
 
 bool MaterialTable::mayShowImage(const MaterialDesc& desc) const {

@@ -40,6 +40,7 @@ void forEachTexture(const MaterialDesc& desc, const Visit& visit) {
 #undef RT_COLOR
     map(p.normalTexture);
     map(p.clearcoatNormalTexture);
+    map(p.anisotropyTexture);
 }
 
 class MaterialTable {
@@ -64,6 +65,7 @@ class MaterialTable {
     // The record beside the material that is about to be added.
     void addPrincipled(const PrincipledDesc& desc);
     std::uint32_t normalMap(const std::string& name); // kNone where there is none or it is grey
+    void addAnisotropy(const PrincipledDesc& desc, shared::Principled& p);
 
     const SceneDesc& desc_;
     const CompileOptions& options_;

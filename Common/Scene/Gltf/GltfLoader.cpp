@@ -139,7 +139,8 @@ class Importer {
     }
 
     static PrimitiveUse useOf(const Surface& surface) {
-        return {surface.material.isOpaque, surface.material.tangentSet, surface.posed.weights, *surface.joints};
+        return {surface.material.isOpaque, surface.material.tangentSet, surface.material.isStretched,
+                surface.posed.weights, *surface.joints};
     }
 
     // Whether joints move all of a mesh.

@@ -59,9 +59,12 @@ void GltfMaterials::add(std::size_t index) {
     const bool isOpaque = source.alphaMode != "MASK" && source.alphaMode != "BLEND";
     MaterialDesc material = isUnlit ? unlit(source) : lit(source);
     if (source.alphaMode == "MASK") material.principled.alphaCutoff = std::clamp(source.alphaCutoff, 0.0, kLargest);
-    Use use{names_.unique(source.name, "material", index), isOpaque, isUnlit, std::nullopt};
+    Use use{names_.unique(source.name, "material", index), isOpaque, isUnlit, std::nullopt, false};
     const PrincipledDesc& made = material.principled;
-    for (const std::string& map : {made.clearcoatNormalTexture, made.normalTexture}) // the latter outweighs the other
+    use.isStretched = made.anisotropy.factor > 0;
+    if (use.isStretched) use.tangentSet = 0;
+    // The last outweighs the others.
+    for (const std::string& map : {made.anisotropyTexture, made.clearcoatNormalTexture, made.normalTexture})
         if (!map.empty()) use.tangentSet = std::get<ImageTexture>(scene_.textures.at(map)).uvSet;
     scene_.materials[use.name] = std::move(material);
     uses_.push_back(std::move(use));
@@ -105,6 +108,8 @@ MaterialDesc GltfMaterials::lit(const tinygltf::Material& source) {
         p.sheenRoughness = textures_.number(numberOf(*sheen, "sheenRoughnessFactor", 0),
                                             GltfSlot(*sheen, "sheenRoughnessTexture"), Channel::Alpha);
     }
+    if (const auto* anisotropy = extension(source.extensions, "KHR_materials_anisotropy"))
+        addAnisotropy(*anisotropy, p);
     if (!gloss) addDielectric(source.extensions, p); // the two say otherwise what reflects
     return material;
 }
@@ -149,6 +154,14 @@ void GltfMaterials::addClearcoat(const tinygltf::Value& coat, PrincipledDesc& p)
         textures_.texture(GltfSlot(coat, "clearcoatNormalTexture"), ColorSpace::Linear, glm::dvec3(1));
     if (const tinygltf::Value* info = member(coat, "clearcoatNormalTexture"))
         p.clearcoatNormalScale = std::clamp(numberOf(*info, "scale", 1), -kLargest, kLargest);
+}
+
+void GltfMaterials::addAnisotropy(const tinygltf::Value& anisotropy, PrincipledDesc& p) {
+    const GltfSlot slot(anisotropy, "anisotropyTexture");
+    p.anisotropy = textures_.number(numberOf(anisotropy, "anisotropyStrength", 0), slot, Channel::Blue);
+    if (p.anisotropy.factor == 0) return;
+    p.anisotropyRotation = std::clamp(numberOf(anisotropy, "anisotropyRotation", 0), -kLargest, kLargest);
+    p.anisotropyTexture = p.anisotropy.texture;
 }
 
 void GltfMaterials::addDielectric(const tinygltf::ExtensionMap& extensions, PrincipledDesc& p) {
@@ -199,7 +212,7 @@ void GltfMaterials::addSpecular(const tinygltf::Value& specular, PrincipledDesc&
 const GltfMaterials::Use& GltfMaterials::use(int material) {
     if (material >= 0) return uses_[static_cast<std::size_t>(material)];
     if (!plain_) { // 3.9.1 of the specification: that of an empty material
-        plain_ = Use{names_.unique("default", "material", 0), true, false, std::nullopt};
+        plain_ = Use{names_.unique("default", "material", 0), true, false, std::nullopt, false};
         MaterialDesc desc = principled();
         desc.principled.metallic.factor = desc.principled.roughness.factor = 1;
         scene_.materials[plain_->name] = desc;

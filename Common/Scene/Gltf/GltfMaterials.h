@@ -20,6 +20,7 @@ class GltfMaterials {
         bool isOpaque = true;                    // nothing of it depends on opacity
         bool isUnlit = false;                    // it is as bright as its colour
         std::optional<std::uint32_t> tangentSet; // of the texture coordinates of its normal map
+        bool isStretched = false;                // tangents matter without texture coordinates, too
     };
 
     // Adds all materials with their textures to the scene, and a notice for each kind of thing that is left out. Both
@@ -37,6 +38,7 @@ class GltfMaterials {
     double addMetallicRoughness(const tinygltf::Material& source, MaterialDesc& material);
     double addSpecularGlossiness(const tinygltf::Value& source, MaterialDesc& material);
     void addClearcoat(const tinygltf::Value& coat, PrincipledDesc& p);
+    void addAnisotropy(const tinygltf::Value& anisotropy, PrincipledDesc& p);
     void addDielectric(const tinygltf::ExtensionMap& extensions, PrincipledDesc& p);
     void addSpecular(const tinygltf::Value& specular, PrincipledDesc& p);
 

@@ -188,11 +188,11 @@ MeshData readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitiv
     parallelFor(count < kEnoughForThreads ? 1 : 0, std::size(parts), [&](std::size_t i) { parts[i](); });
     if (use.isOpaque)
         for (glm::dvec4& color : mesh.colors) color.a = 1;
-    const bool needsTangents = use.tangentSet && !(*use.tangentSet == 0 ? mesh.uvs : mesh.uvs2).empty();
-    if (needsTangents && !mesh.normals.empty()) mesh.tangents = reader.vectors<4>("TANGENT");
+    const bool hasUvs = use.tangentSet && !(*use.tangentSet == 0 ? mesh.uvs : mesh.uvs2).empty();
+    if ((hasUvs || use.isStretched) && !mesh.normals.empty()) mesh.tangents = reader.vectors<4>("TANGENT");
     if (!use.joints.empty()) rescaled = applySkin(file, primitive, use.joints, elements, place, mesh);
     checkPositions(file, mesh, place);
-    if (needsTangents && mesh.tangents.empty()) addTangents(mesh, *use.tangentSet);
+    if (hasUvs && mesh.tangents.empty()) addTangents(mesh, *use.tangentSet);
     return mesh;
 }
 

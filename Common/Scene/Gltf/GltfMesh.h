@@ -16,6 +16,7 @@ namespace rt::scene {
 struct PrimitiveUse {
     bool isOpaque = true;                    // vertex colours have no opacity
     std::optional<std::uint32_t> tangentSet; // of the texture coordinates that tangents are computed of
+    bool isStretched = false;                // tangents matter without texture coordinates, too
     std::span<const double> weights;         // of morph targets; of further ones 0
     std::span<const Affine> joints;          // that move its vertices; empty: it has no skin
 };

@@ -12,6 +12,15 @@ void forEachPrincipledParameter(const Visit& visit) {
     visit(SceneParameter{"metallic", false, "0: dielectric, 1: metal of the base colour"}, &D::metallic);
     visit(SceneParameter{"roughness", false, "its square is the width of the GGX distribution; 0: smooth"},
           &D::roughness);
+    visit(SceneParameter{"anisotropy", false, "widens the distribution along the tangent: 1 as far as roughness 1"},
+          &D::anisotropy);
+    visit(SceneParameter{"anisotropy_rotation", false, "of that direction, counter-clockwise, in radians"},
+          &D::anisotropyRotation);
+    visit(SceneParameter{.name = "anisotropy_texture",
+                         .isRequired = false,
+                         .help = "a name from textures: that direction between tangent and bitangent, 2 rg - 1",
+                         .section = "textures"},
+          &D::anisotropyTexture);
     visit(SceneParameter{"ior", false, "index of refraction, inside over outside", 1, kLargestIor}, &D::ior);
     visit(SceneParameter{"specular", false, "scales the reflection of the dielectric"}, &D::specular);
     visit(SceneParameter{"specular_color", false, "tints it at normal incidence"}, &D::specularColor);

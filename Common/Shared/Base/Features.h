@@ -56,10 +56,12 @@
 //   Fuzz        metal with fuzz above kMirrorFuzz
 //   CoatNormal  clear coats over or under a map of normals
 //   Opacity     surfaces that let a part of rays through
+//   Anisotropy  facets that are rougher along one direction of the surface
 #define RT_MATERIAL_FEATURES(FEATURE)          \
     FEATURE(Fuzz, 31u, "fuzz")                 \
     FEATURE(CoatNormal, 30u, "coat-normal")    \
-    FEATURE(Opacity, 29u, "opacity")
+    FEATURE(Opacity, 29u, "opacity")           \
+    FEATURE(Anisotropy, 28u, "anisotropy")
 
 // Methods that settings ask for.
 //   Mixture      Shirley's mixture, where there are lights or targets
@@ -95,6 +97,9 @@ RT_METHODS(RT_METHOD)
 #define RT_OR_FEATURE(Name, bit, name) | kFeature##Name
 RT_CONST Features kTexturedFeatures = kFeatureNone RT_TEXTURE_FEATURES(RT_OR_FEATURE);
 #undef RT_OR_FEATURE
+
+// Of principled materials, what few have and no loop over samples knows.
+RT_CONST Features kRareFeatures = kFeatureAnisotropy;
 
 RT_CONST Features kRoundFeatures = kFeatureDisks | kFeatureCylinders;
 

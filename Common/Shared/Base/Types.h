@@ -65,6 +65,11 @@ const uint kSidesBoth = 3u;
 
 const uint kMaterialParameters = 2u;
 const uint kAlbedoSteps = 32u; // of the table of directional albedos, see PrincipledSurface.h
+// Of that of stretched facets: cosines, directions about the normal, roughnesses, strengths.
+const uint kStretchedCosines = 16u;
+const uint kStretchedTurns = 8u;
+const uint kStretchedRoughnesses = 16u;
+const uint kStretchedStrengths = 10u;
 
 // What kinds there are and what their parameters mean: Common/Shared/Material/Materials.h.
 struct Material {

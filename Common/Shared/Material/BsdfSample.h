@@ -8,15 +8,24 @@
 
 RT_SHARED_BEGIN
 
-// The lobes that few principled materials have beside diffuse and specular reflection, a bit each.
+// The lobes that few principled materials have beside diffuse and specular reflection, a bit each; and what their
+// specular reflection may be.
 const uint kLobeSheen = 1u << 0u;
 const uint kLobeCoat = 1u << 1u;
 const uint kLobeGlass = 1u << 2u;
-const uint kLobesAll = kLobeSheen | kLobeCoat | kLobeGlass;
+const uint kLobeStretched = 1u << 3u; // by facets that are rougher along one direction: kFeatureAnisotropy
+const uint kLobesLayered = kLobeSheen | kLobeCoat | kLobeGlass; // what loops over samples know
+const uint kLobesRare = kLobeStretched;                         // and what they do not
 
 RT_FN bool hasLobe(uint lobes, uint wanted) {
     return (lobes & wanted) != 0u;
 }
+
+// What few materials have of them.
+struct RareLobes {
+    vec2 stretch;        // unit, in the frame of the normal: along which specular facets are rougher
+    vec2 stretchedAlpha; // the widths of their distribution along it and across
+};
 
 // Of a principled material, for one wo: what each lobe is multiplied by, and the probability with which it is sampled.
 struct PrincipledLobes {
@@ -37,6 +46,13 @@ struct PrincipledLobes {
     float specularShare;
     float coatShare;
     float glassShare;
+    RareLobes rare; // kLobeStretched
+};
+
+// Values that few materials have.
+struct RareValues {
+    float anisotropy; // strength
+    vec2 stretch;     // as of RareLobes
 };
 
 // What the lobes follow from: the numbers of a principled material at a point, its textures evaluated.
@@ -54,6 +70,7 @@ struct PrincipledValues {
     float ior;
     uint thin;
     uint glass; // as of Principled
+    RareValues rare;
 };
 
 // A material at a point, its textures evaluated.
@@ -101,6 +118,8 @@ RT_FN PrincipledLobes noLobes() {
     lobes.specularShare = 0.0f;
     lobes.coatShare = 0.0f;
     lobes.glassShare = 0.0f;
+    lobes.rare.stretch = vec2(1.0f, 0.0f);
+    lobes.rare.stretchedAlpha = vec2(0.0f, 0.0f);
     return lobes;
 }
 

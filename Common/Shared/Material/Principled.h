@@ -67,6 +67,19 @@ RT_FN vec3 fromCoat(Features features, RT_IN(PrincipledLobes) lobes, vec3 w) {
     return toWorld(makeFrame(lobes.coatNormal), w);
 }
 
+// From the frame of the normal to that whose x is the direction along which facets are rougher, and back.
+RT_FN vec3 toStretch(vec2 stretch, vec3 w) {
+    return vec3(w.x * stretch.x + w.y * stretch.y, w.y * stretch.x - w.x * stretch.y, w.z);
+}
+
+RT_FN vec3 fromStretch(vec2 stretch, vec3 w) {
+    return vec3(w.x * stretch.x - w.y * stretch.y, w.x * stretch.y + w.y * stretch.x, w.z);
+}
+
+RT_FN bool isStretched(Features features, RT_IN(PrincipledLobes) lobes) {
+    return has(features, kFeatureAnisotropy) && hasLobe(lobes.others, kLobeStretched);
+}
+
 // The lobes on wo's side of the surface, each above its own normal: f cos in rgb, density in w. Without a branch but
 // for lobes.others, for loops over samples.
 RT_FN vec4 evalPrincipledReflection(Features features, RT_IN(PrincipledLobes) lobes, vec3 wo, vec3 wi) {
@@ -79,8 +92,17 @@ RT_FN vec4 evalPrincipledReflection(Features features, RT_IN(PrincipledLobes) lo
     float alpha = max(lobes.alpha, kMinAlpha);
     float density = isMirror(lobes.alpha) ? 0.0f : ggxDensity(h, alpha);
     float facets = density * smithVisibility(wo.z, wi.z, alpha) * wi.z;
-    vec3 value = lobes.diffuse * cosine + mix(lobes.f0, lobes.f90, grazing) * facets;
-    float pdf = lobes.diffuseShare * cosine + lobes.specularShare * density * reflectionJacobian(wo, alpha);
+    float specular = facets;
+    float specularPdf = lobes.specularShare * density * reflectionJacobian(wo, alpha);
+    if (isStretched(features, lobes)) {
+        vec2 widths = lobes.rare.stretchedAlpha;
+        vec3 o = toStretch(lobes.rare.stretch, wo);
+        float stretched = stretchedDensity(toStretch(lobes.rare.stretch, h), widths);
+        specular = stretched * stretchedVisibility(o, toStretch(lobes.rare.stretch, wi), widths) * wi.z;
+        specularPdf = lobes.specularShare * stretched * stretchedJacobian(o, widths);
+    }
+    vec3 value = lobes.diffuse * cosine + mix(lobes.f0, lobes.f90, grazing) * specular;
+    float pdf = lobes.diffuseShare * cosine + specularPdf;
     if (hasLobe(lobes.others, kLobeSheen)) value += lobes.sheen * (sheenValue(lobes.sheenExponent, wo, wi, h) * wi.z);
     if (!hasLobe(lobes.others, kLobeCoat | kLobeGlass)) {
         return vec4(select(isAbove, value, vec3(0.0f)), isAbove ? pdf : 0.0f);
@@ -166,6 +188,20 @@ RT_FN BsdfSample proposeReflection(RT_IN(PrincipledLobes) lobes, vec3 wo, vec2 u
     return s;
 }
 
+// The same of facets that are rougher along one direction.
+RT_FN BsdfSample proposeStretched(RT_IN(PrincipledLobes) lobes, vec3 wo, vec2 u) {
+    BsdfSample s = absorbed();
+    if (u.x < lobes.diffuseShare) {
+        s.wi = sampleCosineHemisphere(vec2(remapSample(u.x, 0.0f, lobes.diffuseShare), u.y));
+        return s;
+    }
+    float pick = remapSample(u.x, lobes.diffuseShare, lobes.diffuseShare + lobes.specularShare);
+    vec3 o = toStretch(lobes.rare.stretch, wo);
+    vec3 h = sampleStretchedNormal(o, lobes.rare.stretchedAlpha, vec2(pick, u.y));
+    s.wi = fromStretch(lobes.rare.stretch, h * (2.0f * dot(o, h)) - o);
+    return s;
+}
+
 // One sample of one lobe, in the frame of the normal; but for mirrors it has yet to be weighed. wo.z > 0.
 RT_FN BsdfSample proposePrincipled(Features features, RT_IN(Bsdf) m, vec3 wo, vec2 u) {
     RT_IN(PrincipledLobes) lobes = m.lobes;
@@ -174,6 +210,7 @@ RT_FN BsdfSample proposePrincipled(Features features, RT_IN(Bsdf) m, vec3 wo, ve
     vec3 wi;
     uint transmitted = 0u;
     if (u.x < beyondDiffuse) {
+        if (isStretched(features, lobes)) return proposeStretched(lobes, wo, u);
         return proposeReflection(lobes, wo, u);
     } else if (u.x < beyondSpecular) {
         vec3 coatWo = toCoat(features, lobes, wo);

@@ -13,7 +13,8 @@
     NUMBER(clearcoat, 0)              \
     NUMBER(clearcoatRoughness, 0)     \
     NUMBER(sheenRoughness, 0)         \
-    NUMBER(opacity, 1)
+    NUMBER(opacity, 1)                \
+    NUMBER(anisotropy, 0)
 
 // Colours beside the base colour, constant or a texture: COLOR(member, usual value).
 #define RT_PRINCIPLED_COLORS(COLOR) \
@@ -49,8 +50,10 @@ struct Principled {
     float normalScale;  // of their x and y
     uint coatTexture;   // such normals of the clear coat, which has nothing of the surface's; kNone: it is smooth
     float coatScale;
-    float alphaCutoff; // opacity below it is 0, else 1; negative: opacity is a probability
-    uint emitsColors;  // 1: vertex colours multiply emission, too
+    float alphaCutoff;   // opacity below it is 0, else 1; negative: opacity is a probability
+    uint emitsColors;    // 1: vertex colours multiply emission, too
+    vec2 stretch;        // where facets are rougher: cosine and sine of the angle to the tangent
+    uint stretchTexture; // 2 rg - 1: another direction in place of the tangent; kNone: there is none
 };
 
 RT_SHARED_END

@@ -69,6 +69,39 @@ RT_FN float glassAlbedo(SceneRef scene, uint first, bool inside, float cosine, f
     return mix(lower, mix(loadGlassAlbedo(scene, i), loadGlassAlbedo(scene, i + 1u), part.x), part.y);
 }
 
+// The width of facets along the direction in which they are rougher, given the roughness across it: that of
+// KHR_materials_anisotropy.
+RT_FN float stretchedWidth(float roughness, float strength) {
+    return mix(square(roughness), 1.0f, square(strength));
+}
+
+// That of facets that are rougher along one direction, for the unit direction wo in the frame of which x is that
+// direction: as directionalAlbedo(). A table over the strength, the roughness across, the width of facets as wo sees
+// them, and the cosine.
+RT_FN vec3 stretchedAlbedo(SceneRef scene, vec3 wo, float roughness, float strength) {
+    float across = square(roughness);
+    float along = stretchedWidth(roughness, strength);
+    float side = max(square(wo.x) + square(wo.y), 1.0e-20f);
+    float seen = sqrt((square(along * wo.x) + square(across * wo.y)) / side);
+    float turn = clamp((seen - across) / max(along - across, 1.0e-20f), 0.0f, 1.0f);
+    vec2 place = albedoPlace(clamp(wo.z, 0.0f, 1.0f), roughness, kMinRoughness) * (1.0f / float(kAlbedoSteps - 1u));
+    vec4 at = vec4(place.x * float(kStretchedCosines - 1u), sqrt(sqrt(turn)) * float(kStretchedTurns - 1u),
+                   place.y * float(kStretchedRoughnesses - 1u), sqrt(strength) * float(kStretchedStrengths - 1u));
+    uvec4 cell = min(uvec4(at), uvec4(kStretchedCosines - 2u, kStretchedTurns - 2u, kStretchedRoughnesses - 2u,
+                                      kStretchedStrengths - 2u));
+    vec4 part = at - vec4(cell);
+    vec2 sum = vec2(0.0f, 0.0f);
+    for (uint corner = 0u; corner < 16u; corner++) {
+        uvec4 step = uvec4(corner & 1u, corner >> 1u & 1u, corner >> 2u & 1u, corner >> 3u);
+        uvec4 i = cell + step;
+        float weight = (step.x != 0u ? part.x : 1.0f - part.x) * (step.y != 0u ? part.y : 1.0f - part.y) *
+                       (step.z != 0u ? part.z : 1.0f - part.z) * (step.w != 0u ? part.w : 1.0f - part.w);
+        uint entry = ((i.w * kStretchedRoughnesses + i.z) * kStretchedTurns + i.y) * kStretchedCosines + i.x;
+        sum += loadStretchedAlbedo(scene, entry) * weight;
+    }
+    return vec3(sum.x, sum.y, 0.0f);
+}
+
 // ---- textures ------------------------------------------------------------------------------------------------------
 
 // A texture's colour and opacity on a surface.
@@ -150,7 +183,34 @@ RT_FN vec3 compensation(vec3 f0, float whole) {
     return vec3(1.0f) + f0 * (1.0f / max(whole, 1.0e-3f) - 1.0f);
 }
 
-// Of the principled material p at a point.
+// Adds how far facets are stretched, where they are and the surface has a tangent. `n` is the normal that they lie
+// about, on the side that is seen; other arguments as of mappedNormal().
+RT_FN void addAnisotropy(Features features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 n, float facing,
+                         RT_INOUT(PrincipledValues) values) {
+    if (!has(features, kFeatureAnisotropy) || s.tangent.w == 0.0f) return;
+    float strength = surfaceNumber(features, scene, p.anisotropy, s);
+    if (isMirror(stretchedWidth(values.roughness, strength))) return;
+    vec2 direction = p.stretch;
+    if (has(features, kTexturedFeatures) && p.stretchTexture != kNone) {
+        vec3 texel = vec3(surfaceTexture(features, scene, p.stretchTexture, s));
+        vec2 mapped = vec2(2.0f * texel.x - 1.0f, 2.0f * texel.y - 1.0f);
+        direction =
+            vec2(mapped.x * p.stretch.x - mapped.y * p.stretch.y, mapped.x * p.stretch.y + mapped.y * p.stretch.x);
+    }
+    vec3 tangent = vec3(s.tangent) - n * dot(vec3(s.tangent), n);
+    float length2 = dot(tangent, tangent);
+    if (!(strength > 0.0f) || !(length2 > 1.0e-12f)) return;
+    tangent = tangent * (1.0f / sqrt(length2));
+    vec3 along = tangent * direction.x + cross(n * facing, tangent) * (s.tangent.w * direction.y);
+    vec3 local = toLocal(makeFrame(n), along);
+    float squared = square(local.x) + square(local.y);
+    if (!(squared > 1.0e-12f)) return;
+    values.others |= kLobeStretched;
+    values.rare.anisotropy = strength;
+    values.rare.stretch = vec2(local.x, local.y) * (1.0f / sqrt(squared));
+}
+
+// Of the principled material p at a point, but for addAnisotropy().
 RT_FN PrincipledValues principledValues(Features features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s) {
     PrincipledValues values;
     values.metallic = surfaceNumber(features, scene, p.metallic, s);
@@ -165,16 +225,27 @@ RT_FN PrincipledValues principledValues(Features features, SceneRef scene, RT_IN
     values.ior = p.ior;
     values.thin = p.thin;
     values.glass = p.glass;
+    values.rare.anisotropy = 0.0f;
+    values.rare.stretch = vec2(1.0f, 0.0f);
     values.others = (maxComponent(values.sheenColor) > 0.0f ? kLobeSheen : 0u) |
                     (values.clearcoat > 0.0f ? kLobeCoat : 0u) | (values.transmission > 0.0f ? kLobeGlass : 0u);
     return values;
 }
 
+// What specular facets reflect in all towards wo, which is in the frame of the normal n.
+RT_FN vec3 facetsAlbedo(Features features, SceneRef scene, RT_IN(PrincipledValues) values, vec3 n, vec3 wo) {
+    if (!has(features, kFeatureAnisotropy) || !hasLobe(values.others, kLobeStretched)) {
+        return directionalAlbedo(scene, clamp(dot(wo, n), 0.0f, 1.0f), values.roughness);
+    }
+    vec3 local = toStretch(values.rare.stretch, toLocal(makeFrame(n), wo));
+    return stretchedAlbedo(scene, local, values.roughness, values.rare.anisotropy);
+}
+
 // The lobes of a bsdf that has these values and the base colour `albedo`. `cosine` is that of wo and `a` its
-// directionalAlbedo() at the roughness; `coatNormal` is as lobes have it, `coatCosine` that of wo with it; `front`
+// facetsAlbedo(); `coatNormal` is as lobes have it, `coatCosine` that of wo with it; `front`
 // tells whether wo is on the front side. Without a branch but for values.others, for loops over samples.
-RT_FN PrincipledLobes makeLobes(SceneRef scene, RT_IN(PrincipledValues) values, vec3 albedo, float cosine, vec3 a,
-                                vec3 coatNormal, float coatCosine, bool front) {
+RT_FN PrincipledLobes makeLobes(Features features, SceneRef scene, RT_IN(PrincipledValues) values, vec3 albedo,
+                                float cosine, vec3 a, vec3 coatNormal, float coatCosine, bool front) {
     PrincipledLobes lobes;
     lobes.others = values.others;
 
@@ -219,6 +290,10 @@ RT_FN PrincipledLobes makeLobes(SceneRef scene, RT_IN(PrincipledValues) values, 
         if (lobes.glass > 0.0f && !isMirror(lobes.alpha) && !isStraight(lobes)) {
             // A sheet mirrors to its other side what it does not reflect.
             float whole = a.x + a.y;
+            if (isStretched(features, lobes)) { // which facets of glass are not
+                vec3 own = directionalAlbedo(scene, cosine, values.roughness);
+                whole = own.x + own.y;
+            }
             if (values.glass != kNone) whole = glassAlbedo(scene, values.glass, !front, cosine, values.roughness);
             lobes.glass *= compensation(vec3(1.0f), whole).x;
         }
@@ -226,6 +301,13 @@ RT_FN PrincipledLobes makeLobes(SceneRef scene, RT_IN(PrincipledValues) values, 
     lobes.coat = coat;
     lobes.coatAlpha = square(values.clearcoatRoughness);
     lobes.coatNormal = coatNormal;
+    lobes.rare.stretch = vec2(1.0f, 0.0f);
+    lobes.rare.stretchedAlpha = vec2(lobes.alpha);
+    if (isStretched(features, lobes)) {
+        lobes.rare.stretch = values.rare.stretch;
+        lobes.rare.stretchedAlpha =
+            vec2(stretchedWidth(values.roughness, values.rare.anisotropy), max(lobes.alpha, kMinAlpha));
+    }
 
     float diffuseAlbedo = maxComponent(lobes.diffuse) + reflectedBySheen * (1.0f - coatAlbedo);
     float specularAlbedo = maxComponent(lobes.f0 * a.x + lobes.f90 * a.y);
@@ -253,17 +335,19 @@ vec3 coatNormalOf(Features features, SceneRef scene, Principled p, Surface s, ve
                   vec3 geometric, vec3 wo, vec3 n) {
     return vec3(0.0f, 0.0f, 1.0f);
 }
-vec3 directionalAlbedo(SceneRef scene, float cosine, float roughness) {
+vec3 facetsAlbedo(Features features, SceneRef scene, PrincipledValues values, vec3 n, vec3 wo) {
     return vec3(0.0f);
 }
+void addAnisotropy(Features features, SceneRef scene, Principled p, Surface s, vec3 n, float facing,
+                   inout PrincipledValues values) {}
 PrincipledValues principledValues(Features features, SceneRef scene, Principled p, Surface s) {
     PrincipledValues values;
     values.others = 0u;
     values.roughness = 0.0f;
     return values;
 }
-PrincipledLobes makeLobes(SceneRef scene, PrincipledValues values, vec3 albedo, float cosine, vec3 a, vec3 coatNormal,
-                          float coatCosine, bool front) {
+PrincipledLobes makeLobes(Features features, SceneRef scene, PrincipledValues values, vec3 albedo, float cosine, vec3 a,
+                          vec3 coatNormal, float coatCosine, bool front) {
     return noLobes();
 }
 

@@ -90,6 +90,7 @@ RT_FN void placeOnSurface(Features features, SceneRef scene, RT_IN(PathState) s,
         v.bsdf.lobes.coatNormal = coatNormalOf(features, scene, p, surface, v.shading, facing, v.normal, v.wo, n);
         v.shading = n;
         v.values = principledValues(features, scene, p, surface);
+        addAnisotropy(features, scene, p, surface, n, facing, v.values);
     }
 }
 
@@ -102,8 +103,8 @@ RT_FN void completeVertex(Features features, SceneRef scene, RT_INOUT(Vertex) v)
     if (has(features, kFeatureCoatNormal) && coat.z != 1.0f) {
         coatCosine = clamp(dot(v.wo, toWorld(makeFrame(v.shading), coat)), 0.0f, 1.0f);
     }
-    vec3 a = directionalAlbedo(scene, cosine, v.values.roughness);
-    v.bsdf.lobes = makeLobes(scene, v.values, v.bsdf.albedo, cosine, a, coat, coatCosine, v.front != 0u);
+    vec3 a = facetsAlbedo(features, scene, v.values, v.shading, v.wo);
+    v.bsdf.lobes = makeLobes(features, scene, v.values, v.bsdf.albedo, cosine, a, coat, coatCosine, v.front != 0u);
 }
 
 // f |cos| in rgb, density over solid angle of the bsdf's own sampling in w. Directions that cross the geometric surface
