@@ -29,10 +29,13 @@ template <>
 struct FieldsOf<Hit> : Fields<FieldList<&Hit::t, &Hit::kind, &Hit::primitive, &Hit::instance, &Hit::u, &Hit::v>> {};
 
 template <>
-struct FieldsOf<RareLobes> : Fields<FieldList<&RareLobes::stretch, &RareLobes::stretchedAlpha>> {};
+struct FieldsOf<RareLobes>
+    : Fields<
+          FieldList<&RareLobes::stretch, &RareLobes::stretchedAlpha, &RareLobes::filmScale, &RareLobes::filmOffset>> {};
 
 template <>
-struct FieldsOf<RareValues> : Fields<FieldList<&RareValues::anisotropy, &RareValues::stretch>> {};
+struct FieldsOf<RareValues> : Fields<FieldList<&RareValues::anisotropy, &RareValues::stretch, &RareValues::film,
+                                               &RareValues::filmThickness, &RareValues::filmIor>> {};
 
 // Omitted: what only kernels with kFeatureCoatNormal or kRareFeatures keep, in PathLanes::coatNormals and rareLobes.
 template <>

@@ -129,6 +129,7 @@ struct NumberOrTexture {
 
 // The largest index of refraction: facets of it reflect all but half a thousandth.
 inline constexpr double kLargestIor = 1e4;
+inline constexpr double kLargestFilmIor = 5; // of a thin film
 
 // What a principled material has beyond MaterialDesc, whose albedo is its base colour: Principled.h explains.
 struct PrincipledDesc {
@@ -146,10 +147,13 @@ struct PrincipledDesc {
     double normalScale = 1;                    // of their x and y
     std::string clearcoatNormalTexture;        // of the clear coat alone, which else is smooth
     double clearcoatNormalScale = 1;
-    std::optional<double> alphaCutoff; // opacity below it is 0, else 1; unset: opacity is a probability
-    double anisotropyRotation = 0;     // of the direction of rougher facets, from the tangent, in radians
-    std::string anisotropyTexture;     // that direction, 2 rg - 1, before it is rotated; empty: the tangent
-    bool emitsColors = false;          // vertex colours multiply emission, too; light sampling leaves such surfaces out
+    std::optional<double> alphaCutoff;        // opacity below it is 0, else 1; unset: opacity is a probability
+    double iridescenceIor = 1.3;              // of the thin film
+    double iridescenceThicknessMinimum = 100; // in nm, where iridescenceThickness is 0
+    double iridescenceThicknessMaximum = 400; // where it is 1
+    double anisotropyRotation = 0;            // of the direction of rougher facets, from the tangent, in radians
+    std::string anisotropyTexture;            // that direction, 2 rg - 1, before it is rotated; empty: the tangent
+    bool emitsColors = false; // vertex colours multiply emission, too; light sampling leaves such surfaces out
     bool operator==(const PrincipledDesc&) const = default;
 };
 

@@ -149,6 +149,18 @@ TEST_F(GltfMaterials, Extensions) {
     EXPECT_EQ(p.anisotropyRotation, 1.57);
     EXPECT_EQ(p.anisotropyTexture, p.anisotropy.texture);
     EXPECT_EQ(image(p.anisotropyTexture).colorSpace, ColorSpace::Linear);
+    p = extended("KHR_materials_iridescence", {{"iridescenceFactor", 0.5},
+                                               {"iridescenceIor", 1.7},
+                                               {"iridescenceThicknessMinimum", 200},
+                                               {"iridescenceThicknessMaximum", 900},
+                                               {"iridescenceThicknessTexture", {{"index", 1}}}})
+            .principled;
+    EXPECT_EQ(p.iridescence.factor, 0.5);
+    EXPECT_EQ(p.iridescenceIor, 1.7);
+    EXPECT_EQ(p.iridescenceThickness.channel, Channel::Green);
+    EXPECT_EQ(p.iridescenceThickness.factor, 1);
+    EXPECT_EQ(p.iridescenceThicknessMinimum, 200);
+    EXPECT_EQ(p.iridescenceThicknessMaximum, 900);
     const MaterialDesc glow =
         material({{"emissiveFactor", {1, 1, 0}},
                   {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 7}}}}}});

@@ -76,7 +76,11 @@ double reflectedByFacets(double f0, double f90, float alpha, const vec3& wo) {
     });
 }
 
-double sentOutByGlass(const PrincipledLobes& lobes, const vec3& wo) {
+// Of one colour channel; a film changes what is reflected.
+double sentOutByGlass(const PrincipledLobes& lobes, const vec3& wo, int channel) {
+    const bool filmed = hasLobe(lobes.others, kLobeFilm);
+    const double scale = filmed ? double(lobes.rare.filmScale[channel]) : 1;
+    const double offset = filmed ? double(lobes.rare.filmOffset[channel]) : 0;
     if (isMirror(lobes.alpha) || isStraight(lobes)) return double(lobes.glass);
     if (lobes.thin != 0u) return double(lobes.glass) * reflectedByFacets(1, 1, lobes.alpha, wo);
     return double(lobes.glass) * overVisibleNormals(wo, lobes.alpha, [&](const vec3& h, double c) {
@@ -84,7 +88,8 @@ double sentOutByGlass(const PrincipledLobes& lobes, const vec3& wo) {
                const double squared = 1 - eta * eta * (1 - c * c);
                const double t = std::sqrt(std::max(squared, 0.0));
                const double s = (eta * c - t) / (eta * c + t), p = (c - eta * t) / (c + eta * t);
-               const double reflected = squared > 0 ? 0.5 * (s * s + p * p) : 1;
+               const double bare = squared > 0 ? 0.5 * (s * s + p * p) : 1;
+               const double reflected = scale * bare + offset;
                return reflected * passing(cosO, 2 * c * double(h.z) - cosO, alpha) +
                       (1 - reflected) * passing(cosO, eta * cosO - (eta * c - t) * double(h.z), alpha);
            });
@@ -105,11 +110,11 @@ double sentOutBySheen(const PrincipledLobes& lobes, const vec3& wo) {
 }
 
 // Of light that arrives from everywhere alike, by all lobes; wo has no y.
-double principledSentOut(const PrincipledLobes& lobes, const vec3& wo) {
-    double sum = double(lobes.diffuse.x) + sentOutBySheen(lobes, wo) +
-                 reflectedByFacets(double(lobes.f0.x), double(lobes.f90.x), lobes.alpha, wo);
+double principledSentOut(const PrincipledLobes& lobes, const vec3& wo, int channel = 0) {
+    double sum = double(lobes.diffuse[channel]) + sentOutBySheen(lobes, wo) +
+                 reflectedByFacets(double(lobes.f0[channel]), double(lobes.f90[channel]), lobes.alpha, wo);
     if (lobes.coat > 0) sum += double(lobes.coat) * reflectedByFacets(double(kCoatReflectance), 1, lobes.coatAlpha, wo);
-    if (lobes.glass > 0) sum += sentOutByGlass(lobes, wo);
+    if (lobes.glass > 0) sum += sentOutByGlass(lobes, wo, channel);
     return sum;
 }
 
@@ -137,6 +142,36 @@ TEST(Principled, NothingMakesEnergy) {
                     }
                 }
             }
+}
+
+// Films of any thickness send out no more than arrives in any channel, and where surfaces are smooth all of it.
+TEST(Principled, FilmsMakeNoEnergy) {
+    const PrincipledCase cases[] = {{"metal", 1, 0, 0, 0, false, 0, 1},
+                                    {"dielectric", 0, 0, 0, 0, false, 0, 1},
+                                    {"glass", 0, 1, 0, 0, false, 0, 1},
+                                    {"bubble", 0, 1, 0, 0, true, 0, 1},
+                                    {"mixture", 0.4f, 0.5f, 0.5f, 0.3f, false, 0, 0.6f}};
+    for (const PrincipledCase& which : cases)
+        for (const float roughness : {0.0f, 0.1f, 0.4f, 1.0f})
+            for (const float thickness : {60.0f, 150.0f, 330.0f, 900.0f})
+                for (const float ior : {1.2f, 1.8f})
+                    for (const double cosine : {1e-3, 0.05, 0.3, 0.7, 1.0})
+                        for (const bool front : {true, false}) {
+                            if (!front && !(which.transmission > 0)) continue;
+                            Principled p = principledOf(which, roughness);
+                            p.filmThickness = vec2(thickness);
+                            p.filmIor = ior;
+                            const vec3 wo = withoutY(cosine);
+                            const PrincipledLobes lobes = bsdfOf(p, vec3(1), wo, front).lobes;
+                            for (int c = 0; c < 3; ++c) {
+                                const double sent = principledSentOut(lobes, wo, c);
+                                EXPECT_LE(sent, 1.001) << which.name << ' ' << roughness << ' ' << thickness << ' '
+                                                       << ior << ' ' << cosine << ' ' << front << ' ' << c;
+                                if (roughness == 0 && which.metallic == 0) {
+                                    EXPECT_GT(sent, 0.99) << which.name << ' ' << thickness << ' ' << cosine;
+                                }
+                            }
+                        }
 }
 
 // At grazing angles smooth fibres would send out several times what arrives, were they not bounded.

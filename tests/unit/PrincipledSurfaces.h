@@ -47,6 +47,7 @@ struct PrincipledCase {
     float metallic = 0, transmission = 0, clearcoat = 0, sheen = 0;
     bool thin = false;
     float anisotropy = 0;
+    float film = 0;
 };
 inline constexpr PrincipledCase kPrincipledCases[] = {{"metal", 1},
                                                       {"dielectric"},
@@ -56,7 +57,11 @@ inline constexpr PrincipledCase kPrincipledCases[] = {{"metal", 1},
                                                       {"sheen", 0, 0, 0, 0.8f},
                                                       {"mixture", 0.3f, 0.5f, 0.5f, 0.5f},
                                                       {"brushed metal", 1, 0, 0, 0, false, 0.8f},
-                                                      {"brushed mixture", 0.3f, 0.5f, 0.5f, 0.5f, false, 0.6f}};
+                                                      {"brushed mixture", 0.3f, 0.5f, 0.5f, 0.5f, false, 0.6f},
+                                                      {"filmed metal", 1, 0, 0, 0, false, 0, 1},
+                                                      {"filmed dielectric", 0, 0, 0, 0, false, 0, 1},
+                                                      {"filmed glass", 0, 1, 0, 0, false, 0, 0.7f},
+                                                      {"bubble", 0, 1, 0, 0, true, 0, 1}};
 
 // As tests are called.
 inline std::string principledCaseName(const PrincipledCase& which) {
@@ -79,6 +84,10 @@ inline Principled principledOf(const PrincipledCase& which, float roughness) {
     p.anisotropy = constant(which.anisotropy);
     p.stretch = vec2(std::cos(0.4f), std::sin(0.4f));
     p.stretchTexture = shared::kNone;
+    p.iridescence = constant(which.film);
+    p.iridescenceThickness = constant(1);
+    p.filmThickness = vec2(100, 400);
+    p.filmIor = 1.3f;
     p.specularColor = {vec3(1), shared::kNone};
     p.sheenColor = {vec3(which.sheen), shared::kNone};
     p.ior = kPrincipledIor;
@@ -98,6 +107,7 @@ inline Bsdf bsdfOf(const Principled& p, const vec3& albedo, const vec3& wo, bool
     surface.tangent = vec4(1, 0, 0, 1);
     PrincipledValues values = principledValues(shared::kFeatureAll, tables, p, surface);
     addAnisotropy(shared::kFeatureAll, tables, p, surface, kUp, 1, values);
+    addFilm(shared::kFeatureAll, tables, p, surface, values);
     b.lobes = makeLobes(shared::kFeatureAll, tables, values, albedo, wo.z,
                         facetsAlbedo(shared::kFeatureAll, tables, values, kUp, wo), coat, std::max(dot(coat, wo), 0.0f),
                         front);

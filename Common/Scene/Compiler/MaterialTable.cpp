@@ -123,6 +123,8 @@ void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
     p.coatTexture = normalMap(desc.clearcoatNormalTexture);
     p.coatScale = static_cast<float>(desc.clearcoatNormalScale);
     addAnisotropy(desc, p);
+    p.filmThickness = shared::vec2(desc.iridescenceThicknessMinimum, desc.iridescenceThicknessMaximum);
+    p.filmIor = static_cast<float>(desc.iridescenceIor);
     p.alphaCutoff = desc.alphaCutoff ? static_cast<float>(*desc.alphaCutoff) : -1.0f;
     p.emitsColors = desc.emitsColors ? 1u : 0u;
     out_.principled.resize(out_.materials.size());

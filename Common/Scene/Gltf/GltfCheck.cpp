@@ -16,14 +16,23 @@ namespace rt::scene {
 
 namespace {
 
-constexpr std::array kSupported = {"KHR_lights_punctual",        "KHR_materials_anisotropy",
-                                   "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
-                                   "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
-                                   "KHR_materials_sheen",        "KHR_materials_specular",
-                                   "KHR_materials_transmission", "KHR_materials_unlit",
-                                   "KHR_materials_variants",     "KHR_materials_volume",
-                                   "KHR_mesh_quantization",      "KHR_texture_transform",
-                                   "EXT_mesh_gpu_instancing",    "EXT_texture_webp"};
+constexpr std::array kSupported = {"KHR_lights_punctual",
+                                   "KHR_materials_anisotropy",
+                                   "KHR_materials_clearcoat",
+                                   "KHR_materials_emissive_strength",
+                                   "KHR_materials_ior",
+                                   "KHR_materials_iridescence",
+                                   "KHR_materials_pbrSpecularGlossiness",
+                                   "KHR_materials_sheen",
+                                   "KHR_materials_specular",
+                                   "KHR_materials_transmission",
+                                   "KHR_materials_unlit",
+                                   "KHR_materials_variants",
+                                   "KHR_materials_volume",
+                                   "KHR_mesh_quantization",
+                                   "KHR_texture_transform",
+                                   "EXT_mesh_gpu_instancing",
+                                   "EXT_texture_webp"};
 
 // Without a buffer view the values of an accessor are zeros, which cost a file nothing.
 constexpr std::uint64_t kMaxImplicit = 1'000'000;

@@ -110,6 +110,8 @@ MaterialDesc GltfMaterials::lit(const tinygltf::Material& source) {
     }
     if (const auto* anisotropy = extension(source.extensions, "KHR_materials_anisotropy"))
         addAnisotropy(*anisotropy, p);
+    const auto* iridescence = extension(source.extensions, "KHR_materials_iridescence");
+    if (iridescence && !gloss) addIridescence(*iridescence, p);
     if (!gloss) addDielectric(source.extensions, p); // the two say otherwise what reflects
     return material;
 }
@@ -162,6 +164,18 @@ void GltfMaterials::addAnisotropy(const tinygltf::Value& anisotropy, PrincipledD
     if (p.anisotropy.factor == 0) return;
     p.anisotropyRotation = std::clamp(numberOf(anisotropy, "anisotropyRotation", 0), -kLargest, kLargest);
     p.anisotropyTexture = p.anisotropy.texture;
+}
+
+void GltfMaterials::addIridescence(const tinygltf::Value& iridescence, PrincipledDesc& p) {
+    p.iridescence = textures_.number(numberOf(iridescence, "iridescenceFactor", 0),
+                                     GltfSlot(iridescence, "iridescenceTexture"), Channel::Red);
+    if (p.iridescence.factor == 0) return;
+    p.iridescenceThickness = textures_.number(1, GltfSlot(iridescence, "iridescenceThicknessTexture"), Channel::Green);
+    p.iridescenceIor = std::clamp(numberOf(iridescence, "iridescenceIor", 1.3), 1.0, kLargestFilmIor);
+    p.iridescenceThicknessMinimum =
+        std::clamp(numberOf(iridescence, "iridescenceThicknessMinimum", 100), 0.0, kLargest);
+    p.iridescenceThicknessMaximum =
+        std::clamp(numberOf(iridescence, "iridescenceThicknessMaximum", 400), 0.0, kLargest);
 }
 
 void GltfMaterials::addDielectric(const tinygltf::ExtensionMap& extensions, PrincipledDesc& p) {

@@ -39,6 +39,7 @@ class GltfMaterials {
     double addSpecularGlossiness(const tinygltf::Value& source, MaterialDesc& material);
     void addClearcoat(const tinygltf::Value& coat, PrincipledDesc& p);
     void addAnisotropy(const tinygltf::Value& anisotropy, PrincipledDesc& p);
+    void addIridescence(const tinygltf::Value& iridescence, PrincipledDesc& p);
     void addDielectric(const tinygltf::ExtensionMap& extensions, PrincipledDesc& p);
     void addSpecular(const tinygltf::Value& specular, PrincipledDesc& p);
 

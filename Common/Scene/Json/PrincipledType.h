@@ -24,6 +24,13 @@ void forEachPrincipledParameter(const Visit& visit) {
     visit(SceneParameter{"ior", false, "index of refraction, inside over outside", 1, kLargestIor}, &D::ior);
     visit(SceneParameter{"specular", false, "scales the reflection of the dielectric"}, &D::specular);
     visit(SceneParameter{"specular_color", false, "tints it at normal incidence"}, &D::specularColor);
+    visit(SceneParameter{"iridescence", false, "share of the surface under a thin film"}, &D::iridescence);
+    visit(SceneParameter{"iridescence_ior", false, "index of refraction of the film", 1, kLargestFilmIor},
+          &D::iridescenceIor);
+    visit(SceneParameter{"iridescence_thickness", false, "of the film, between the next two"},
+          &D::iridescenceThickness);
+    visit(SceneParameter{"iridescence_thickness_minimum", false, "in nm", 0}, &D::iridescenceThicknessMinimum);
+    visit(SceneParameter{"iridescence_thickness_maximum", false, "in nm", 0}, &D::iridescenceThicknessMaximum);
     visit(SceneParameter{"transmission", false, "share of the dielectric that lets light through"}, &D::transmission);
     visit(SceneParameter{"thin_walled", false, "transmits without bending"}, &D::isThin);
     visit(SceneParameter{"attenuation_color", false, "what is left of white after attenuation_distance inside"},

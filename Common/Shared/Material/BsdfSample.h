@@ -14,8 +14,9 @@ const uint kLobeSheen = 1u << 0u;
 const uint kLobeCoat = 1u << 1u;
 const uint kLobeGlass = 1u << 2u;
 const uint kLobeStretched = 1u << 3u; // by facets that are rougher along one direction: kFeatureAnisotropy
+const uint kLobeFilm = 1u << 4u;      // through a thin film: kFeatureIridescence; of lobes, those of glass
 const uint kLobesLayered = kLobeSheen | kLobeCoat | kLobeGlass; // what loops over samples know
-const uint kLobesRare = kLobeStretched;                         // and what they do not
+const uint kLobesRare = kLobeStretched | kLobeFilm;             // and what they do not
 
 RT_FN bool hasLobe(uint lobes, uint wanted) {
     return (lobes & wanted) != 0u;
@@ -25,6 +26,8 @@ RT_FN bool hasLobe(uint lobes, uint wanted) {
 struct RareLobes {
     vec2 stretch;        // unit, in the frame of the normal: along which specular facets are rougher
     vec2 stretchedAlpha; // the widths of their distribution along it and across
+    vec3 filmScale;      // what glass reflects under a film: this part of what it would reflect without
+    vec3 filmOffset;     // and this
 };
 
 // Of a principled material, for one wo: what each lobe is multiplied by, and the probability with which it is sampled.
@@ -46,13 +49,16 @@ struct PrincipledLobes {
     float specularShare;
     float coatShare;
     float glassShare;
-    RareLobes rare; // kLobeStretched
+    RareLobes rare; // kLobesRare
 };
 
 // Values that few materials have.
 struct RareValues {
-    float anisotropy; // strength
-    vec2 stretch;     // as of RareLobes
+    float anisotropy;    // strength
+    vec2 stretch;        // as of RareLobes
+    float film;          // share of the surface under a film
+    float filmThickness; // nm
+    float filmIor;
 };
 
 // What the lobes follow from: the numbers of a principled material at a point, its textures evaluated.
@@ -120,6 +126,8 @@ RT_FN PrincipledLobes noLobes() {
     lobes.glassShare = 0.0f;
     lobes.rare.stretch = vec2(1.0f, 0.0f);
     lobes.rare.stretchedAlpha = vec2(0.0f, 0.0f);
+    lobes.rare.filmScale = vec3(1.0f);
+    lobes.rare.filmOffset = vec3(0.0f);
     return lobes;
 }
 

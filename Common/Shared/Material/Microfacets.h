@@ -7,6 +7,15 @@
 
 RT_SHARED_BEGIN
 
+RT_FN float fifthPower(float x) {
+    return square(square(x)) * x;
+}
+
+// Schlick's approximation, a weight for the reflectance at grazing incidence.
+RT_FN float schlick(float cosine) {
+    return fifthPower(1.0f - cosine);
+}
+
 const float kMinAlpha = 1.0e-3f; // below it a lobe is a mirror: floats no longer resolve its directions
 
 // Density of microfacet normals h per steradian and projected area. 1 - h.z^2 would cancel for small alpha.

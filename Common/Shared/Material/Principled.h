@@ -8,6 +8,7 @@
 #include "Common/Shared/Base/Random.h"
 #include "Common/Shared/Material/Dielectric.h"
 #include "Common/Shared/Material/Microfacets.h"
+#include "Common/Shared/Material/ThinFilm.h"
 
 RT_SHARED_BEGIN
 
@@ -21,15 +22,6 @@ const float kMinRoughness = 0.0316227766f; // square root of kMinAlpha
 const float kMinSheenRoughness = 0.07f;    // below it sheen would be a spark at grazing angles
 const float kCoatReflectance = 0.04f;      // of a clear coat at normal incidence
 const uint kGlassKey = 0x85ebca6bu;        // of the hash that chooses what rough glass does, any number
-
-RT_FN float fifthPower(float x) {
-    return square(square(x)) * x;
-}
-
-// Schlick's approximation, a weight for the reflectance at grazing incidence.
-RT_FN float schlick(float cosine) {
-    return fifthPower(1.0f - cosine);
-}
 
 RT_FN bool isMirror(float alpha) {
     return alpha < kMinAlpha;
@@ -80,6 +72,22 @@ RT_FN bool isStretched(Features features, RT_IN(PrincipledLobes) lobes) {
     return has(features, kFeatureAnisotropy) && hasLobe(lobes.others, kLobeStretched);
 }
 
+RT_FN bool isFilmed(Features features, RT_IN(PrincipledLobes) lobes) {
+    return has(features, kFeatureIridescence) && hasLobe(lobes.others, kLobeFilm);
+}
+
+// What glass reflects under a film, where it would reflect so much without.
+RT_FN vec3 filmedReflectance(RT_IN(PrincipledLobes) lobes, float bare) {
+    return lobes.rare.filmScale * bare + lobes.rare.filmOffset;
+}
+
+// The probability with which glass reflects what it scatters at a facet that would reflect so much without a film.
+RT_FN float reflectionOdds(Features features, RT_IN(PrincipledLobes) lobes, float bare) {
+    if (!isFilmed(features, lobes)) return bare;
+    vec3 r = filmedReflectance(lobes, bare);
+    return (r.x + r.y + r.z) * (1.0f / 3.0f);
+}
+
 // The lobes on wo's side of the surface, each above its own normal: f cos in rgb, density in w. Without a branch but
 // for lobes.others, for loops over samples.
 RT_FN vec4 evalPrincipledReflection(Features features, RT_IN(PrincipledLobes) lobes, vec3 wo, vec3 wi) {
@@ -111,8 +119,13 @@ RT_FN vec4 evalPrincipledReflection(Features features, RT_IN(PrincipledLobes) lo
     float uncoloured = 0.0f;
     float glassPdf = 0.0f;
     if (hasLobe(lobes.others, kLobeGlass)) {
-        float reflected = fresnel(c, lobes.eta).x;
-        uncoloured = lobes.glass * reflected * facets;
+        float bare = fresnel(c, lobes.eta).x;
+        float reflected = reflectionOdds(features, lobes, bare);
+        if (isFilmed(features, lobes)) {
+            value += filmedReflectance(lobes, bare) * (lobes.glass * facets);
+        } else {
+            uncoloured = lobes.glass * reflected * facets;
+        }
         // The normals of glass are all that are visible.
         glassPdf = lobes.glassShare * reflected * density * smithMasking(wo.z, alpha) / (4.0f * wo.z);
     }
@@ -139,7 +152,7 @@ RT_FN vec4 evalPrincipledReflection(Features features, RT_IN(PrincipledLobes) lo
 
 // Through rough glass (Walter et al. 2007, section 4), or through a sheet of it, which mirrors what it would reflect to
 // the other side. Radiance is not scaled by the indices, as in Dielectric.h.
-RT_FN vec4 evalPrincipledTransmission(RT_IN(Bsdf) m, vec3 wo, vec3 wi) {
+RT_FN vec4 evalPrincipledTransmission(Features features, RT_IN(Bsdf) m, vec3 wo, vec3 wi) {
     RT_IN(PrincipledLobes) lobes = m.lobes;
     if (!(lobes.glass > 0.0f) || isMirror(lobes.alpha) || isStraight(lobes)) return vec4(0.0f);
     vec3 mirrored = vec3(wi.x, wi.y, -wi.z);
@@ -150,9 +163,14 @@ RT_FN vec4 evalPrincipledTransmission(RT_IN(Bsdf) m, vec3 wo, vec3 wi) {
     if (!(co > 0.0f && ci > 0.0f)) return vec4(0.0f);
     // d h / d wi: of reflection, and of refraction.
     float jacobian = lobes.thin != 0u ? 0.25f / co : ci / max(square(lobes.eta * co - ci), 1.0e-20f);
-    float transmitted = 1.0f - fresnel(min(co, 1.0f), lobes.eta).x;
+    float bare = fresnel(min(co, 1.0f), lobes.eta).x;
+    float transmitted = 1.0f - reflectionOdds(features, lobes, bare);
     float facets = ggxDensity(h, lobes.alpha) * smithVisibility(wo.z, mirrored.z, lobes.alpha) * mirrored.z;
     vec3 value = m.albedo * (lobes.glass * transmitted * facets * 4.0f * co * jacobian);
+    if (isFilmed(features, lobes)) {
+        value =
+            m.albedo * (vec3(1.0f) - filmedReflectance(lobes, bare)) * (lobes.glass * facets * 4.0f * co * jacobian);
+    }
     return vec4(value, lobes.glassShare * transmitted * visibleNormalPdf(wo, h, lobes.alpha) * jacobian);
 }
 
@@ -234,7 +252,8 @@ RT_FN BsdfSample proposePrincipled(Features features, RT_IN(Bsdf) m, vec3 wo, ve
         if (!isMirror(lobes.alpha)) h = sampleVisibleNormal(wo, lobes.alpha, vec2(pick, u.y));
         float c = clamp(dot(wo, h), 0.0f, 1.0f);
         vec2 f = fresnel(c, lobes.eta);
-        if (choice < f.x) {
+        float odds = reflectionOdds(features, lobes, f.x);
+        if (choice < odds) {
             wi = h * (2.0f * c) - wo;
         } else {
             transmitted = 1u;
@@ -247,6 +266,10 @@ RT_FN BsdfSample proposePrincipled(Features features, RT_IN(Bsdf) m, vec3 wo, ve
             BsdfSample s = mirrorSample(wi, vec3(lobes.glass), lobes.glassShare);
             s.transmitted = transmitted;
             if (transmitted != 0u) s.weight *= m.albedo;
+            if (isFilmed(features, lobes)) {
+                vec3 r = filmedReflectance(lobes, f.x);
+                s.weight *= transmitted != 0u ? (vec3(1.0f) - r) / (1.0f - odds) : r / odds;
+            }
             return s;
         }
     } else {
@@ -261,7 +284,7 @@ RT_FN BsdfSample proposePrincipled(Features features, RT_IN(Bsdf) m, vec3 wo, ve
 // f cos and density of a proposal: of the lobes that send light to its side.
 RT_FN vec4 evalProposal(Features features, RT_IN(Bsdf) m, vec3 wo, RT_IN(BsdfSample) s) {
     if (s.transmitted == 0u) return evalPrincipledReflection(features, m.lobes, wo, s.wi);
-    return s.wi.z < 0.0f ? evalPrincipledTransmission(m, wo, s.wi) : vec4(0.0f);
+    return s.wi.z < 0.0f ? evalPrincipledTransmission(features, m, wo, s.wi) : vec4(0.0f);
 }
 
 // Weighs a proposal by the density of all lobes; f is evalProposal() of it. Without a branch, for loops over samples.

@@ -14,7 +14,9 @@
     NUMBER(clearcoatRoughness, 0)     \
     NUMBER(sheenRoughness, 0)         \
     NUMBER(opacity, 1)                \
-    NUMBER(anisotropy, 0)
+    NUMBER(anisotropy, 0)             \
+    NUMBER(iridescence, 0)            \
+    NUMBER(iridescenceThickness, 1)
 
 // Colours beside the base colour, constant or a texture: COLOR(member, usual value).
 #define RT_PRINCIPLED_COLORS(COLOR) \
@@ -53,6 +55,8 @@ struct Principled {
     float alphaCutoff;   // opacity below it is 0, else 1; negative: opacity is a probability
     uint emitsColors;    // 1: vertex colours multiply emission, too
     vec2 stretch;        // where facets are rougher: cosine and sine of the angle to the tangent
+    vec2 filmThickness;  // of the thin film, in nm: where iridescenceThickness is 0, and where it is 1
+    float filmIor;       // its index of refraction
     uint stretchTexture; // 2 rg - 1: another direction in place of the tangent; kNone: there is none
 };
 

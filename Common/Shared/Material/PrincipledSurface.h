@@ -227,6 +227,9 @@ RT_FN PrincipledValues principledValues(Features features, SceneRef scene, RT_IN
     values.glass = p.glass;
     values.rare.anisotropy = 0.0f;
     values.rare.stretch = vec2(1.0f, 0.0f);
+    values.rare.film = 0.0f;
+    values.rare.filmThickness = 0.0f;
+    values.rare.filmIor = 1.0f;
     values.others = (maxComponent(values.sheenColor) > 0.0f ? kLobeSheen : 0u) |
                     (values.clearcoat > 0.0f ? kLobeCoat : 0u) | (values.transmission > 0.0f ? kLobeGlass : 0u);
     return values;
@@ -239,6 +242,96 @@ RT_FN vec3 facetsAlbedo(Features features, SceneRef scene, RT_IN(PrincipledValue
     }
     vec3 local = toStretch(values.rare.stretch, toLocal(makeFrame(n), wo));
     return stretchedAlbedo(scene, local, values.roughness, values.rare.anisotropy);
+}
+
+// Adds the thin film, where there is one.
+RT_FN void addFilm(Features features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s,
+                   RT_INOUT(PrincipledValues) values) {
+    if (!has(features, kFeatureIridescence)) return;
+    values.rare.film = surfaceNumber(features, scene, p.iridescence, s);
+    float thickness = surfaceNumber(features, scene, p.iridescenceThickness, s);
+    values.rare.filmThickness = mix(p.filmThickness.x, p.filmThickness.y, thickness);
+    values.rare.filmIor = p.filmIor;
+    if (values.rare.film > 0.0f && values.rare.filmThickness > 0.0f) values.others |= kLobeFilm;
+}
+
+// What a film makes of reflectances: of those at normal and at grazing incidence, and of that of glass, R, which becomes
+// glassScale R + glassOffset.
+struct Film {
+    vec3 f0;
+    vec3 f90;
+    vec3 metalF0;
+    vec3 metalF90;
+    vec3 glassScale;
+    vec3 glassOffset;
+};
+
+RT_FN Film noFilm() {
+    Film film;
+    film.f0 = vec3(0.0f);
+    film.f90 = vec3(1.0f);
+    film.metalF0 = vec3(0.0f);
+    film.metalF90 = vec3(1.0f);
+    film.glassScale = vec3(1.0f);
+    film.glassOffset = vec3(0.0f);
+    return film;
+}
+
+// The reflectance at normal incidence of which Schlick's approximation makes r where its weight is `grazing`; negative
+// where that of normal incidence 0 is more already.
+RT_FN vec3 beforeSchlick(vec3 r, float grazing) {
+    return (r - vec3(grazing)) * (1.0f / max(1.0f - grazing, 1.0e-4f));
+}
+
+// The reflectance at grazing incidence that belongs to a beforeSchlick(): 1, or, where that is negative, what 0 would
+// have to be there.
+RT_FN vec3 beforeGrazing(vec3 normal, vec3 r, float grazing) {
+    vec3 least = r * (1.0f / max(grazing, 1.0e-30f));
+    return vec3(normal.x < 0.0f ? least.x : 1.0f, normal.y < 0.0f ? least.y : 1.0f, normal.z < 0.0f ? least.z : 1.0f);
+}
+
+// Of what glass reflects bare, the part that remains where a film changes it to `filmed`; or, where the film reflects
+// more, the part of what is transmitted.
+RT_FN float glassScale(float filmed, float bare) {
+    if (filmed > bare) return (1.0f - filmed) / max(1.0f - bare, 1.0e-6f);
+    return bare > 0.0f && bare < 1.0f ? filmed / bare : 1.0f;
+}
+
+// Of the film of these values over reflectances f0 and, of metal, `albedo`. Its colour is that of the direction wo, of
+// this cosine, for all facets: what tables know about Schlick's approximation then bounds what is sent out. A smooth
+// surface has no other. Glass from inside reflects as from outside, along the refracted ray.
+RT_FN Film filmOf(RT_IN(PrincipledValues) values, vec3 f0, vec3 albedo, float cosine, float eta, bool inside) {
+    Film film;
+    vec2 bare = fresnel(cosine, eta);
+    float outside = inside ? bare.y : cosine;
+    vec3 dielectric = filmReflectance(outside, values.rare.filmIor, values.rare.filmThickness, f0);
+    vec3 metal = filmReflectance(outside, values.rare.filmIor, values.rare.filmThickness, albedo);
+    float grazing = schlick(cosine);
+    film.f0 = beforeSchlick(dielectric, grazing);
+    film.f90 = beforeGrazing(film.f0, dielectric, grazing);
+    film.f0 = max(film.f0, vec3(0.0f));
+    film.metalF0 = beforeSchlick(metal, grazing);
+    film.metalF90 = beforeGrazing(film.metalF0, metal, grazing);
+    film.metalF0 = max(film.metalF0, vec3(0.0f));
+
+    float clear = square((values.ior - 1.0f) / (values.ior + 1.0f));
+    vec3 glass = filmReflectance(outside, values.rare.filmIor, values.rare.filmThickness, vec3(clear));
+    vec3 filmed = mix(vec3(bare.x), glass, values.rare.film);
+    film.glassScale = vec3(glassScale(filmed.x, bare.x), glassScale(filmed.y, bare.x), glassScale(filmed.z, bare.x));
+    film.glassOffset =
+        vec3(filmed.x > bare.x ? 1.0f - film.glassScale.x : 0.0f, filmed.y > bare.x ? 1.0f - film.glassScale.y : 0.0f,
+             filmed.z > bare.x ? 1.0f - film.glassScale.z : 0.0f);
+    return film;
+}
+
+// What filmed glass reflects and transmits in all, at most: `reflection` is the albedo of facets that reflect all,
+// `whole` that of the glass without a film. Where the film reflects more, so much of it reflects all; where it reflects
+// less, the rest transmits what the glass would reflect.
+RT_FN float filmedAlbedo(RT_IN(Film) film, float reflection, float whole) {
+    float transmitted = 1.0f - min(film.glassScale.x + film.glassOffset.x,
+                                   min(film.glassScale.y + film.glassOffset.y, film.glassScale.z + film.glassOffset.z));
+    float most = max(whole, reflection);
+    return most + transmitted * max(1.0f - most, 0.0f);
 }
 
 // The lobes of a bsdf that has these values and the base colour `albedo`. `cosine` is that of wo and `a` its
@@ -269,21 +362,33 @@ RT_FN PrincipledLobes makeLobes(Features features, SceneRef scene, RT_IN(Princip
     }
     float below = (1.0f - coatAlbedo) * (1.0f - reflectedBySheen);
 
+    lobes.alpha = square(values.roughness);
+    lobes.eta = front || values.thin != 0u ? 1.0f / values.ior : values.ior;
+    lobes.thin = values.thin;
+
     float specular = values.specular;
     float metallic = values.metallic;
     float opaque = (1.0f - metallic) * (1.0f - values.transmission);
     vec3 f0 = min(values.specularColor * square((values.ior - 1.0f) / (values.ior + 1.0f)), vec3(1.0f)) * specular;
+    vec3 f90 = vec3(specular);
+    vec3 metalF0 = albedo;
+    vec3 metalF90 = vec3(1.0f);
+    Film film = noFilm();
+    if (isFilmed(features, lobes)) {
+        film = filmOf(values, f0, albedo, cosine, lobes.eta, inside);
+        f0 = mix(f0, film.f0, values.rare.film);
+        f90 = mix(f90, film.f90, values.rare.film);
+        metalF0 = mix(metalF0, film.metalF0, values.rare.film);
+        metalF90 = mix(metalF90, film.metalF90, values.rare.film);
+    }
     vec3 boost = compensation(f0, a.x + a.y);
-    vec3 metalBoost = compensation(albedo, a.x + a.y);
-    vec3 reflected = (f0 * a.x + vec3(specular * a.y)) * boost;
+    vec3 metalBoost = compensation(metalF0, a.x + a.y);
+    vec3 reflected = (f0 * a.x + f90 * a.y) * boost;
     lobes.diffuse = albedo * (below * opaque * max(1.0f - maxComponent(reflected), 0.0f));
-    lobes.f0 = (f0 * boost * opaque + albedo * metalBoost * metallic) * below;
-    lobes.f90 = (boost * (opaque * specular) + metalBoost * metallic) * below;
+    lobes.f0 = (f0 * boost * opaque + metalF0 * metalBoost * metallic) * below;
+    lobes.f90 = (boost * (f90 * opaque) + metalF90 * metalBoost * metallic) * below;
     lobes.sheen = sheen * (1.0f - coatAlbedo);
     lobes.sheenExponent = 1.0f / square(values.sheenRoughness);
-    lobes.alpha = square(values.roughness);
-    lobes.eta = front || values.thin != 0u ? 1.0f / values.ior : values.ior;
-    lobes.thin = values.thin;
     lobes.glass = 0.0f;
     if (hasLobe(values.others, kLobeGlass)) {
         lobes.glass = (1.0f - metallic) * values.transmission * below;
@@ -295,12 +400,16 @@ RT_FN PrincipledLobes makeLobes(Features features, SceneRef scene, RT_IN(Princip
                 whole = own.x + own.y;
             }
             if (values.glass != kNone) whole = glassAlbedo(scene, values.glass, !front, cosine, values.roughness);
+            if (isFilmed(features, lobes)) whole = filmedAlbedo(film, a.x + a.y, whole);
             lobes.glass *= compensation(vec3(1.0f), whole).x;
         }
     }
     lobes.coat = coat;
     lobes.coatAlpha = square(values.clearcoatRoughness);
     lobes.coatNormal = coatNormal;
+    lobes.rare.filmScale = film.glassScale;
+    lobes.rare.filmOffset = film.glassOffset;
+    if (!(lobes.glass > 0.0f)) lobes.others &= ~kLobeFilm; // which is in f0 and f90
     lobes.rare.stretch = vec2(1.0f, 0.0f);
     lobes.rare.stretchedAlpha = vec2(lobes.alpha);
     if (isStretched(features, lobes)) {
@@ -340,6 +449,7 @@ vec3 facetsAlbedo(Features features, SceneRef scene, PrincipledValues values, ve
 }
 void addAnisotropy(Features features, SceneRef scene, Principled p, Surface s, vec3 n, float facing,
                    inout PrincipledValues values) {}
+void addFilm(Features features, SceneRef scene, Principled p, Surface s, inout PrincipledValues values) {}
 PrincipledValues principledValues(Features features, SceneRef scene, Principled p, Surface s) {
     PrincipledValues values;
     values.others = 0u;

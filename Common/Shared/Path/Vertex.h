@@ -91,6 +91,7 @@ RT_FN void placeOnSurface(Features features, SceneRef scene, RT_IN(PathState) s,
         v.shading = n;
         v.values = principledValues(features, scene, p, surface);
         addAnisotropy(features, scene, p, surface, n, facing, v.values);
+        addFilm(features, scene, p, surface, v.values);
     }
 }
 
