@@ -34,8 +34,9 @@ struct FieldsOf<RareLobes>
           FieldList<&RareLobes::stretch, &RareLobes::stretchedAlpha, &RareLobes::filmScale, &RareLobes::filmOffset>> {};
 
 template <>
-struct FieldsOf<RareValues> : Fields<FieldList<&RareValues::anisotropy, &RareValues::stretch, &RareValues::film,
-                                               &RareValues::filmThickness, &RareValues::filmIor>> {};
+struct FieldsOf<RareValues>
+    : Fields<FieldList<&RareValues::anisotropy, &RareValues::stretch, &RareValues::film, &RareValues::filmThickness,
+                       &RareValues::filmIor, &RareValues::beyond, &RareValues::beyondColor, &RareValues::isBeyond>> {};
 
 // Omitted: what only kernels with kFeatureCoatNormal or kRareFeatures keep, in PathLanes::coatNormals and rareLobes.
 template <>

@@ -161,6 +161,13 @@ TEST_F(GltfMaterials, Extensions) {
     EXPECT_EQ(p.iridescenceThickness.factor, 1);
     EXPECT_EQ(p.iridescenceThicknessMinimum, 200);
     EXPECT_EQ(p.iridescenceThicknessMaximum, 900);
+    p = extended("KHR_materials_diffuse_transmission", {{"diffuseTransmissionFactor", 0.25},
+                                                        {"diffuseTransmissionTexture", {{"index", 0}}},
+                                                        {"diffuseTransmissionColorFactor", {1, 0.9, 0.85}}})
+            .principled;
+    EXPECT_EQ(p.diffuseTransmission.factor, 0.25);
+    EXPECT_EQ(p.diffuseTransmission.channel, Channel::Alpha);
+    EXPECT_EQ(std::get<glm::dvec3>(p.diffuseTransmissionColor), glm::dvec3(1, 0.9, 0.85));
     const MaterialDesc glow =
         material({{"emissiveFactor", {1, 1, 0}},
                   {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 7}}}}}});

@@ -144,6 +144,25 @@ TEST(Principled, NothingMakesEnergy) {
             }
 }
 
+// What is transmitted diffusely and what is reflected add up to what arrives, but for what tables leave.
+TEST(Principled, TranslucentSurfacesShareOutWhatTheyScatter) {
+    for (const PrincipledCase& which : test::kTranslucentCases)
+        for (const float roughness : {0.0f, 0.1f, 0.5f, 1.0f})
+            for (const double cosine : {1e-3, 0.05, 0.3, 1.0})
+                for (const bool front : {true, false}) {
+                    Principled p = principledOf(which, roughness);
+                    p.anisotropy.factor = 0; // of which no quadrature here knows
+                    const vec3 wo = withoutY(cosine);
+                    const PrincipledLobes here = bsdfOf(p, vec3(1), wo, front).lobes;
+                    const PrincipledLobes beyond = bsdfOf(p, vec3(1), wo, front, test::kUp, true).lobes;
+                    EXPECT_EQ(beyond.diffuseShare, 1);
+                    const double sum = principledSentOut(here, wo) + double(beyond.diffuse.x);
+                    EXPECT_LE(sum, 1.001) << which.name << ' ' << roughness << ' ' << cosine;
+                    EXPECT_GT(sum, 0.9) << which.name << ' ' << roughness << ' ' << cosine;
+                    EXPECT_NEAR(beyond.diffuse.x, (here.diffuse.x + beyond.diffuse.x) * which.beyond, 1e-6);
+                }
+}
+
 // Films of any thickness send out no more than arrives in any channel, and where surfaces are smooth all of it.
 TEST(Principled, FilmsMakeNoEnergy) {
     const PrincipledCase cases[] = {{"metal", 1, 0, 0, 0, false, 0, 1},

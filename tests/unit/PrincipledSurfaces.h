@@ -48,6 +48,7 @@ struct PrincipledCase {
     bool thin = false;
     float anisotropy = 0;
     float film = 0;
+    float beyond = 0; // share of the diffuse base that transmits
 };
 inline constexpr PrincipledCase kPrincipledCases[] = {{"metal", 1},
                                                       {"dielectric"},
@@ -62,6 +63,11 @@ inline constexpr PrincipledCase kPrincipledCases[] = {{"metal", 1},
                                                       {"filmed dielectric", 0, 0, 0, 0, false, 0, 1},
                                                       {"filmed glass", 0, 1, 0, 0, false, 0, 0.7f},
                                                       {"bubble", 0, 1, 0, 0, true, 0, 1}};
+
+// Of these the diffuse base sends light to both sides, which paths choose from.
+inline constexpr PrincipledCase kTranslucentCases[] = {{"leaf", 0, 0, 0, 0, false, 0, 0, 0.6f},
+                                                       {"coated leaf", 0, 0, 1, 0.5f, false, 0, 0, 1},
+                                                       {"wax", 0.2f, 0.3f, 0.3f, 0, false, 0.5f, 0.5f, 0.4f}};
 
 // As tests are called.
 inline std::string principledCaseName(const PrincipledCase& which) {
@@ -88,6 +94,8 @@ inline Principled principledOf(const PrincipledCase& which, float roughness) {
     p.iridescenceThickness = constant(1);
     p.filmThickness = vec2(100, 400);
     p.filmIor = 1.3f;
+    p.diffuseTransmission = constant(which.beyond);
+    p.diffuseTransmissionColor = {vec3(1), shared::kNone};
     p.specularColor = {vec3(1), shared::kNone};
     p.sheenColor = {vec3(which.sheen), shared::kNone};
     p.ior = kPrincipledIor;
@@ -98,7 +106,9 @@ inline Principled principledOf(const PrincipledCase& which, float roughness) {
     return p;
 }
 
-inline Bsdf bsdfOf(const Principled& p, const vec3& albedo, const vec3& wo, bool front = true, const vec3& coat = kUp) {
+// `beyond`: what transmits diffusely, as it is seen from there.
+inline Bsdf bsdfOf(const Principled& p, const vec3& albedo, const vec3& wo, bool front = true, const vec3& coat = kUp,
+                   bool beyond = false) {
     Bsdf b{};
     b.kind = shared::kMaterialPrincipled;
     b.albedo = albedo;
@@ -106,8 +116,8 @@ inline Bsdf bsdfOf(const Principled& p, const vec3& albedo, const vec3& wo, bool
     Surface surface{};
     surface.tangent = vec4(1, 0, 0, 1);
     PrincipledValues values = principledValues(shared::kFeatureAll, tables, p, surface);
-    addAnisotropy(shared::kFeatureAll, tables, p, surface, kUp, 1, values);
-    addFilm(shared::kFeatureAll, tables, p, surface, values);
+    addRareValues(shared::kFeatureAll, tables, p, surface, kUp, 1, values);
+    values.rare.isBeyond = beyond ? 1u : 0u;
     b.lobes = makeLobes(shared::kFeatureAll, tables, values, albedo, wo.z,
                         facetsAlbedo(shared::kFeatureAll, tables, values, kUp, wo), coat, std::max(dot(coat, wo), 0.0f),
                         front);

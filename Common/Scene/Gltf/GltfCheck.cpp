@@ -19,6 +19,7 @@ namespace {
 constexpr std::array kSupported = {"KHR_lights_punctual",
                                    "KHR_materials_anisotropy",
                                    "KHR_materials_clearcoat",
+                                   "KHR_materials_diffuse_transmission",
                                    "KHR_materials_emissive_strength",
                                    "KHR_materials_ior",
                                    "KHR_materials_iridescence",

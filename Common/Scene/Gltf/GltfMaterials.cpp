@@ -193,6 +193,12 @@ void GltfMaterials::addDielectric(const tinygltf::ExtensionMap& extensions, Prin
                                           GltfSlot(*transmission, "transmissionTexture"), Channel::Red);
         p.isThin = true; // unless it has a volume
     }
+    if (const auto* diffuse = extension(extensions, "KHR_materials_diffuse_transmission")) {
+        p.diffuseTransmission = textures_.number(numberOf(*diffuse, "diffuseTransmissionFactor", 0),
+                                                 GltfSlot(*diffuse, "diffuseTransmissionTexture"), Channel::Alpha);
+        p.diffuseTransmissionColor = textures_.color(vectorOf(*diffuse, "diffuseTransmissionColorFactor", 1),
+                                                     GltfSlot(*diffuse, "diffuseTransmissionColorTexture"));
+    }
     if (const auto* volume = extension(extensions, "KHR_materials_volume")) {
         const double thickness = numberOf(*volume, "thicknessFactor", 0);
         const double distance = numberOf(*volume, "attenuationDistance", 0);

@@ -37,6 +37,10 @@ void forEachPrincipledParameter(const Visit& visit) {
           &D::attenuationColor);
     visit(SceneParameter{"attenuation_distance", false, "missing: nothing is absorbed inside", kSmallest},
           &D::attenuationDistance);
+    visit(SceneParameter{"diffuse_transmission", false, "share of the diffuse base that transmits instead"},
+          &D::diffuseTransmission);
+    visit(SceneParameter{"diffuse_transmission_color", false, "of what that lets through"},
+          &D::diffuseTransmissionColor);
     visit(SceneParameter{"clearcoat", false, "share of the surface under a clear coat"}, &D::clearcoat);
     visit(SceneParameter{"clearcoat_roughness", false}, &D::clearcoatRoughness);
     visit(SceneParameter{.name = "clearcoat_normal_texture",

@@ -58,12 +58,14 @@
 //   Opacity     surfaces that let a part of rays through
 //   Anisotropy  facets that are rougher along one direction of the surface
 //   Iridescence thin films
+//   DiffuseTransmission  surfaces that transmit light into all directions
 #define RT_MATERIAL_FEATURES(FEATURE)          \
     FEATURE(Fuzz, 31u, "fuzz")                 \
     FEATURE(CoatNormal, 30u, "coat-normal")    \
     FEATURE(Opacity, 29u, "opacity")           \
     FEATURE(Anisotropy, 28u, "anisotropy")     \
-    FEATURE(Iridescence, 27u, "iridescence")
+    FEATURE(Iridescence, 27u, "iridescence")   \
+    FEATURE(DiffuseTransmission, 26u, "diffuse-transmission")
 
 // Methods that settings ask for.
 //   Mixture      Shirley's mixture, where there are lights or targets
@@ -101,7 +103,7 @@ RT_CONST Features kTexturedFeatures = kFeatureNone RT_TEXTURE_FEATURES(RT_OR_FEA
 #undef RT_OR_FEATURE
 
 // Of principled materials, what few have and no loop over samples knows.
-RT_CONST Features kRareFeatures = kFeatureAnisotropy | kFeatureIridescence;
+RT_CONST Features kRareFeatures = kFeatureAnisotropy | kFeatureIridescence | kFeatureDiffuseTransmission;
 
 RT_CONST Features kRoundFeatures = kFeatureDisks | kFeatureCylinders;
 

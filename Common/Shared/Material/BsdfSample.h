@@ -15,6 +15,7 @@ const uint kLobeCoat = 1u << 1u;
 const uint kLobeGlass = 1u << 2u;
 const uint kLobeStretched = 1u << 3u; // by facets that are rougher along one direction: kFeatureAnisotropy
 const uint kLobeFilm = 1u << 4u;      // through a thin film: kFeatureIridescence; of lobes, those of glass
+const uint kLobeBeyond = 1u << 5u;    // diffuse transmission: kFeatureDiffuseTransmission; of values only
 const uint kLobesLayered = kLobeSheen | kLobeCoat | kLobeGlass; // what loops over samples know
 const uint kLobesRare = kLobeStretched | kLobeFilm;             // and what they do not
 
@@ -59,6 +60,9 @@ struct RareValues {
     float film;          // share of the surface under a film
     float filmThickness; // nm
     float filmIor;
+    float beyond; // share of the diffuse base that transmits, in this colour
+    vec3 beyondColor;
+    uint isBeyond; // 1: the path goes on beyond the surface, where that is all that scatters
 };
 
 // What the lobes follow from: the numbers of a principled material at a point, its textures evaluated.

@@ -16,12 +16,14 @@
     NUMBER(opacity, 1)                \
     NUMBER(anisotropy, 0)             \
     NUMBER(iridescence, 0)            \
-    NUMBER(iridescenceThickness, 1)
+    NUMBER(iridescenceThickness, 1)   \
+    NUMBER(diffuseTransmission, 0)
 
 // Colours beside the base colour, constant or a texture: COLOR(member, usual value).
 #define RT_PRINCIPLED_COLORS(COLOR) \
     COLOR(specularColor, 1)         \
-    COLOR(sheenColor, 0)
+    COLOR(sheenColor, 0)            \
+    COLOR(diffuseTransmissionColor, 1)
 
 RT_SHARED_BEGIN
 

@@ -183,8 +183,7 @@ RT_FN vec3 compensation(vec3 f0, float whole) {
     return vec3(1.0f) + f0 * (1.0f / max(whole, 1.0e-3f) - 1.0f);
 }
 
-// Adds how far facets are stretched, where they are and the surface has a tangent. `n` is the normal that they lie
-// about, on the side that is seen; other arguments as of mappedNormal().
+// Adds how far facets are stretched, where they are and the surface has a tangent; see addRareValues().
 RT_FN void addAnisotropy(Features features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 n, float facing,
                          RT_INOUT(PrincipledValues) values) {
     if (!has(features, kFeatureAnisotropy) || s.tangent.w == 0.0f) return;
@@ -210,7 +209,7 @@ RT_FN void addAnisotropy(Features features, SceneRef scene, RT_IN(Principled) p,
     values.rare.stretch = vec2(local.x, local.y) * (1.0f / sqrt(squared));
 }
 
-// Of the principled material p at a point, but for addAnisotropy().
+// Of the principled material p at a point, but for addRareValues().
 RT_FN PrincipledValues principledValues(Features features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s) {
     PrincipledValues values;
     values.metallic = surfaceNumber(features, scene, p.metallic, s);
@@ -230,6 +229,9 @@ RT_FN PrincipledValues principledValues(Features features, SceneRef scene, RT_IN
     values.rare.film = 0.0f;
     values.rare.filmThickness = 0.0f;
     values.rare.filmIor = 1.0f;
+    values.rare.beyond = 0.0f;
+    values.rare.beyondColor = vec3(1.0f);
+    values.rare.isBeyond = 0u;
     values.others = (maxComponent(values.sheenColor) > 0.0f ? kLobeSheen : 0u) |
                     (values.clearcoat > 0.0f ? kLobeCoat : 0u) | (values.transmission > 0.0f ? kLobeGlass : 0u);
     return values;
@@ -253,6 +255,24 @@ RT_FN void addFilm(Features features, SceneRef scene, RT_IN(Principled) p, RT_IN
     values.rare.filmThickness = mix(p.filmThickness.x, p.filmThickness.y, thickness);
     values.rare.filmIor = p.filmIor;
     if (values.rare.film > 0.0f && values.rare.filmThickness > 0.0f) values.others |= kLobeFilm;
+}
+
+// Adds diffuse transmission, where there is some.
+RT_FN void addDiffuseTransmission(Features features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s,
+                                  RT_INOUT(PrincipledValues) values) {
+    if (!has(features, kFeatureDiffuseTransmission)) return;
+    values.rare.beyond = surfaceNumber(features, scene, p.diffuseTransmission, s);
+    values.rare.beyondColor = clamp(surfaceColor(features, scene, p.diffuseTransmissionColor, s), 0.0f, 1.0f);
+    if (values.rare.beyond > 0.0f) values.others |= kLobeBeyond;
+}
+
+// What few materials have. `n` is the normal that facets lie about, on the side that is seen; `facing` is 1 on the front
+// and -1 on the back.
+RT_FN void addRareValues(Features features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 n, float facing,
+                         RT_INOUT(PrincipledValues) values) {
+    addAnisotropy(features, scene, p, s, n, facing, values);
+    addFilm(features, scene, p, s, values);
+    addDiffuseTransmission(features, scene, p, s, values);
 }
 
 // What a film makes of reflectances: of those at normal and at grazing incidence, and of that of glass, R, which becomes
@@ -334,6 +354,23 @@ RT_FN float filmedAlbedo(RT_IN(Film) film, float reflection, float whole) {
     return most + transmitted * max(1.0f - most, 0.0f);
 }
 
+// Of lobes none but the diffuse one, of this albedo.
+RT_FN PrincipledLobes onlyDiffuse(RT_IN(PrincipledLobes) all, vec3 albedo) {
+    PrincipledLobes lobes = all;
+    lobes.others = 0u;
+    lobes.diffuse = albedo;
+    lobes.f0 = vec3(0.0f);
+    lobes.f90 = vec3(0.0f);
+    lobes.sheen = vec3(0.0f);
+    lobes.glass = 0.0f;
+    lobes.coat = 0.0f;
+    lobes.diffuseShare = maxComponent(albedo) > 0.0f ? 1.0f : 0.0f;
+    lobes.specularShare = 0.0f;
+    lobes.coatShare = 0.0f;
+    lobes.glassShare = 0.0f;
+    return lobes;
+}
+
 // The lobes of a bsdf that has these values and the base colour `albedo`. `cosine` is that of wo and `a` its
 // facetsAlbedo(); `coatNormal` is as lobes have it, `coatCosine` that of wo with it; `front`
 // tells whether wo is on the front side. Without a branch but for values.others, for loops over samples.
@@ -384,7 +421,8 @@ RT_FN PrincipledLobes makeLobes(Features features, SceneRef scene, RT_IN(Princip
     vec3 boost = compensation(f0, a.x + a.y);
     vec3 metalBoost = compensation(metalF0, a.x + a.y);
     vec3 reflected = (f0 * a.x + f90 * a.y) * boost;
-    lobes.diffuse = albedo * (below * opaque * max(1.0f - maxComponent(reflected), 0.0f));
+    float left = below * opaque * max(1.0f - maxComponent(reflected), 0.0f);
+    lobes.diffuse = albedo * left;
     lobes.f0 = (f0 * boost * opaque + metalF0 * metalBoost * metallic) * below;
     lobes.f90 = (boost * (f90 * opaque) + metalF90 * metalBoost * metallic) * below;
     lobes.sheen = sheen * (1.0f - coatAlbedo);
@@ -418,6 +456,13 @@ RT_FN PrincipledLobes makeLobes(Features features, SceneRef scene, RT_IN(Princip
             vec2(stretchedWidth(values.roughness, values.rare.anisotropy), max(lobes.alpha, kMinAlpha));
     }
 
+    if (has(features, kFeatureDiffuseTransmission) && hasLobe(values.others, kLobeBeyond)) {
+        lobes.others &= ~kLobeBeyond;
+        lobes.diffuse *= 1.0f - values.rare.beyond;
+        if (values.rare.isBeyond != 0u)
+            return onlyDiffuse(lobes, values.rare.beyondColor * (left * values.rare.beyond));
+    }
+
     float diffuseAlbedo = maxComponent(lobes.diffuse) + reflectedBySheen * (1.0f - coatAlbedo);
     float specularAlbedo = maxComponent(lobes.f0 * a.x + lobes.f90 * a.y);
     float sum = diffuseAlbedo + specularAlbedo + coatAlbedo + lobes.glass;
@@ -447,9 +492,8 @@ vec3 coatNormalOf(Features features, SceneRef scene, Principled p, Surface s, ve
 vec3 facetsAlbedo(Features features, SceneRef scene, PrincipledValues values, vec3 n, vec3 wo) {
     return vec3(0.0f);
 }
-void addAnisotropy(Features features, SceneRef scene, Principled p, Surface s, vec3 n, float facing,
+void addRareValues(Features features, SceneRef scene, Principled p, Surface s, vec3 n, float facing,
                    inout PrincipledValues values) {}
-void addFilm(Features features, SceneRef scene, Principled p, Surface s, inout PrincipledValues values) {}
 PrincipledValues principledValues(Features features, SceneRef scene, Principled p, Surface s) {
     PrincipledValues values;
     values.others = 0u;

@@ -1,6 +1,7 @@
 // The path tracer: a path, vertex by vertex. Each vertex goes through these stages:
 //
-//   shadeHit             collision in a medium, emission weighed against the light sampling of the vertex before, surface
+//   shadeHit             collision in a medium, emission weighed against the light sampling of the vertex before, surface,
+//                        the side on which the path goes on where light is transmitted diffusely
 //   choose a light       mis, mixture: chooseLight() by lightSelectionSample()
 //   sample and weigh it  mis: sampleDirectLight(), which leaves a shadow ray
 //   scatter              the bsdf's sample, or in its place the mixture's
@@ -18,6 +19,7 @@
 #define RT_SHARED_PATH_STEP_H
 #include "Common/Shared/Camera.h"
 #include "Common/Shared/Path/Mixture.h"
+#include "Common/Shared/Path/VertexChoice.h"
 #include "Common/Shared/Technique/Techniques.h"
 
 RT_SHARED_BEGIN
@@ -118,6 +120,7 @@ RT_FN bool shadeHit(Features features, SceneRef scene, RT_IN(RenderParams) param
         addEmission(features, scene, params, surface, material, hit.t, share, s);
         if (material.kind == kMaterialEmitter || endsAtMaxDepth(params, s)) return false;
         placeOnSurface(features, scene, s, surface, material, v);
+        chooseSide(features, smp, s, v);
         if (!goOnAtSurface(features, params, surface, v, s, step)) return false;
     }
     s.last = lightContext(v);

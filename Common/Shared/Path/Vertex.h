@@ -90,8 +90,7 @@ RT_FN void placeOnSurface(Features features, SceneRef scene, RT_IN(PathState) s,
         v.bsdf.lobes.coatNormal = coatNormalOf(features, scene, p, surface, v.shading, facing, v.normal, v.wo, n);
         v.shading = n;
         v.values = principledValues(features, scene, p, surface);
-        addAnisotropy(features, scene, p, surface, n, facing, v.values);
-        addFilm(features, scene, p, surface, v.values);
+        addRareValues(features, scene, p, surface, n, facing, v.values);
     }
 }
 
@@ -99,12 +98,18 @@ RT_FN void placeOnSurface(Features features, SceneRef scene, RT_IN(PathState) s,
 RT_FN void completeVertex(Features features, SceneRef scene, RT_INOUT(Vertex) v) {
     if (!isPrincipled(features, v.bsdf)) return;
     vec3 coat = v.bsdf.lobes.coatNormal;
-    float cosine = clamp(dot(v.wo, v.shading), 0.0f, 1.0f);
+    vec3 n = v.shading;
+    vec3 wo = v.wo;
+    if (has(features, kFeatureDiffuseTransmission) && v.values.rare.isBeyond != 0u) {
+        n = -n; // the side from which it is seen, see VertexChoice.h
+        wo = -mirrorDirection(wo, v.shading);
+    }
+    float cosine = clamp(dot(wo, n), 0.0f, 1.0f);
     float coatCosine = cosine;
     if (has(features, kFeatureCoatNormal) && coat.z != 1.0f) {
-        coatCosine = clamp(dot(v.wo, toWorld(makeFrame(v.shading), coat)), 0.0f, 1.0f);
+        coatCosine = clamp(dot(wo, toWorld(makeFrame(n), coat)), 0.0f, 1.0f);
     }
-    vec3 a = facetsAlbedo(features, scene, v.values, v.shading, v.wo);
+    vec3 a = facetsAlbedo(features, scene, v.values, n, wo);
     v.bsdf.lobes = makeLobes(features, scene, v.values, v.bsdf.albedo, cosine, a, coat, coatCosine, v.front != 0u);
 }
 
