@@ -148,6 +148,7 @@ struct PrincipledDesc {
     std::string clearcoatNormalTexture;        // of the clear coat alone, which else is smooth
     double clearcoatNormalScale = 1;
     std::optional<double> alphaCutoff;        // opacity below it is 0, else 1; unset: opacity is a probability
+    double dispersion = 0;                    // 20 over the Abbe number, 0: the index is that of all wavelengths
     double iridescenceIor = 1.3;              // of the thin film
     double iridescenceThicknessMinimum = 100; // in nm, where iridescenceThickness is 0
     double iridescenceThicknessMaximum = 400; // where it is 1

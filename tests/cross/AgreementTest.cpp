@@ -282,6 +282,17 @@ TEST_P(PrincipledAgreementTest, CoatsWithNormalsOfTheirOwn) {
     EXPECT_EQ(device().validationMessages(), 0u);
 }
 
+// Brushed metal, thin films, leaves, glass that disperses.
+TEST_P(PrincipledAgreementTest, Extensions) {
+    const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/gltf-extensions.json"), true, true);
+    EnginePair engines(scene, GetParam());
+    constexpr double kAgreeThroughGlass = 0.98;
+    EXPECT_GE(agreement(engines.render(pairSettings(1))), kAgreeThroughGlass);
+    EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
+    for (const Pair& feature : engines.features()) EXPECT_GE(agreement(feature), kAgreeThroughGlass);
+    EXPECT_EQ(device().validationMessages(), 0u);
+}
+
 TEST_P(PrincipledAgreementTest, SampleForSample) {
     const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/principled.json"), true, true);
     EnginePair engines(scene, GetParam());

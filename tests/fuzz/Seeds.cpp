@@ -137,6 +137,13 @@ void writeGltf(Seeds& seeds) {
                 {"KHR_materials_clearcoat",
                  {{"clearcoatFactor", 1}, {"clearcoatTexture", texture}, {"clearcoatNormalTexture", texture}}},
                 {"KHR_materials_sheen", {{"sheenColorFactor", {1, 0, 1}}}},
+                {"KHR_materials_anisotropy",
+                 {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1}, {"anisotropyTexture", texture}}},
+                {"KHR_materials_iridescence",
+                 {{"iridescenceFactor", 0.5}, {"iridescenceIor", 2}, {"iridescenceThicknessTexture", texture}}},
+                {"KHR_materials_diffuse_transmission",
+                 {{"diffuseTransmissionFactor", 0.5}, {"diffuseTransmissionColorTexture", texture}}},
+                {"KHR_materials_dispersion", {{"dispersion", 0.5}}},
                 {"KHR_materials_emissive_strength", {{"emissiveStrength", 5}}}}}});
     full.add("materials",
              {{"extensions",

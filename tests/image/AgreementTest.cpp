@@ -63,6 +63,11 @@ TEST(Principled, IsTheSameForAllWaysToSampleLights) {
     expectAgreement(app::loadScene(RT_TEST_DATA_DIR "/scenes/principled.json"));
 }
 
+// Brushed metal, thin films, glass that disperses, and leaves, beyond which lights count once as well.
+TEST(Principled, ExtensionsAreTheSameForAllWaysToSampleLights) {
+    expectAgreement(app::loadScene(RT_TEST_DATA_DIR "/scenes/gltf-extensions.json"));
+}
+
 // Coats reflect to where the surface below them does not, and lights there count once.
 TEST(NightlyCoatNormals, AreTheSameForAllWaysToSampleLights) {
     expectAgreement(app::loadScene(RT_TEST_DATA_DIR "/scenes/lacquer.json"));

@@ -1,4 +1,5 @@
 // Surfaces that transmit light into all directions, and glass that disperses: pictures of known answer.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -79,6 +80,49 @@ TEST(Translucent, LampsShineThrough) {
     const auto scene = compileScene(desc);
     for (const app::RenderSettings& settings : allEstimators(smallSettings(4, 256)))
         EXPECT_TRUE(isMean(render(*scene, settings), truth)) << describe(settings);
+}
+
+// A ball of glass before a sky that is brighter above, so that it matters where light is bent to.
+SceneDesc ball(double ior, double dispersion, double roughness) {
+    SceneDesc desc;
+    MaterialDesc glass;
+    glass.kind = MaterialKind::Principled;
+    glass.principled.transmission.factor = 1;
+    glass.principled.roughness.factor = roughness;
+    glass.principled.ior = ior;
+    glass.principled.dispersion = dispersion;
+    desc.materials["glass"] = glass;
+    SphereDesc sphere;
+    sphere.material = "glass";
+    desc.objects.push_back({sphere});
+    desc.camera.lookFrom = {0, 0.4, 2.5};
+    desc.camera.lookAt = {0, 0.5, 0};
+    desc.camera.verticalFov = 25;
+    GradientBackground sky;
+    sky.bottom = {0, 0, 0};
+    sky.top = {1, 1, 1};
+    desc.background = sky;
+    return desc;
+}
+
+// Each channel is that of glass which has its index for all, by Cauchy's equation with the numbers of the extension.
+TEST(Dispersion, ChannelsAreThoseOfTheirOwnIndices) {
+    constexpr double kIor = 1.5, kDispersion = 4;
+    const std::array<double, 3> wavelengths = {656.3, 587.6, 486.1};
+    for (const double roughness : {0.0, 0.4}) {
+        const app::RenderSettings settings = smallSettings(8, 512);
+        const Estimate all = render(ball(kIor, kDispersion, roughness), settings);
+        double spread = 0;
+        for (int c = 0; c < 3; ++c) {
+            const double wavelength = wavelengths[static_cast<std::size_t>(c)];
+            const double ior = kIor + (kIor - 1) * kDispersion / 20 * (523655 / (wavelength * wavelength) - 1.5168);
+            const Estimate one = render(ball(ior, 0, roughness), settings);
+            const double noise = std::hypot(all.standardError[c], one.standardError[c]);
+            EXPECT_NEAR(all.mean[c], one.mean[c], 4 * noise + 1e-4) << c << ", roughness " << roughness;
+            spread = std::max(spread, std::abs(all.mean[c] - all.mean[1]) / noise);
+        }
+        EXPECT_GT(spread, 8) << roughness; // of standard errors: the channels differ
+    }
 }
 
 } // namespace

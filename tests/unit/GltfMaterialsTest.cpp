@@ -168,6 +168,7 @@ TEST_F(GltfMaterials, Extensions) {
     EXPECT_EQ(p.diffuseTransmission.factor, 0.25);
     EXPECT_EQ(p.diffuseTransmission.channel, Channel::Alpha);
     EXPECT_EQ(std::get<glm::dvec3>(p.diffuseTransmissionColor), glm::dvec3(1, 0.9, 0.85));
+    EXPECT_EQ(extended("KHR_materials_dispersion", {{"dispersion", 0.36}}).principled.dispersion, 0.36);
     const MaterialDesc glow =
         material({{"emissiveFactor", {1, 1, 0}},
                   {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 7}}}}}});

@@ -65,6 +65,9 @@ class GltfProducts : public testing::Test {
             for (int c = 0; c < 3; ++c) colors.push_back(static_cast<float>(kVertex[c]));
             colors.push_back(static_cast<float>(kVertexAlpha));
         }
+        primitive["attributes"]["NORMAL"] = gltf.addAccessor(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+        primitive["attributes"]["TANGENT"] =
+            gltf.addAccessor(std::vector<float>{1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
         primitive["attributes"]["COLOR_0"] = gltf.addAccessor(colors, "VEC4");
         gltf.addNode({{"mesh", gltf.addMesh(primitive)}});
         desc = loadGltfScene(gltf.save(folder / "a.glb"));
@@ -80,6 +83,12 @@ class GltfProducts : public testing::Test {
     SceneDesc desc;
 
   private:
+    static shared::PrincipledValues valuesAt(const shared::SceneView& view, const shared::Principled& p,
+                                             const shared::Surface& s) {
+        shared::PrincipledValues values = shared::principledValues(shared::kFeatureAll, view, p, s);
+        shared::addRareValues(shared::kFeatureAll, view, p, s, s.shading, 1, values);
+        return values;
+    }
     SeenSurface look() const {
         const auto compiled = app::compile(desc, true);
         std::vector<float> linear(256);
@@ -101,7 +110,7 @@ class GltfProducts : public testing::Test {
         return {dvec3(shared::surfaceAlbedo(all, view, material, s)),
                 dvec3(shared::surfaceEmission(all, view, material, s)),
                 double(shared::surfaceOpacity(all, view, p, s)),
-                shared::principledValues(all, view, p, s),
+                valuesAt(view, p, s),
                 p,
                 s.light != shared::kNone};
     }
@@ -185,6 +194,57 @@ TEST_F(GltfProducts, OfNumbersOfExtensions) {
         EXPECT_NEAR(extended(p.extension, {{p.factor, 0.75}, {p.texture, kTexture}}).values.*p.value, 0.75 * p.texel,
                     kRounding);
     }
+}
+
+TEST_F(GltfProducts, OfAnisotropy) {
+    const shared::PrincipledValues values =
+        extended("KHR_materials_anisotropy",
+                 {{"anisotropyStrength", 0.75}, {"anisotropyRotation", 0.5}, {"anisotropyTexture", kTexture}})
+            .values;
+    EXPECT_NEAR(values.rare.anisotropy, 0.75 * kLinear.b, kRounding);
+    // The frame of the normal is any; the angle to where the tangent lies in it is what counts.
+    const double direction = std::atan2(2 * kLinear.g - 1, 2 * kLinear.r - 1) + 0.5;
+    const auto angleOf = [](const shared::vec2& v) { return std::atan2(double(v.y), double(v.x)); };
+    const shared::RareValues plain = extended("KHR_materials_anisotropy", {{"anisotropyStrength", 1}}).values.rare;
+    const double seen = angleOf(values.rare.stretch) - angleOf(plain.stretch);
+    EXPECT_NEAR(std::cos(seen - direction), 1, 1e-6) << seen << ' ' << direction;
+}
+
+TEST_F(GltfProducts, OfIridescenceAndDiffuseTransmission) {
+    shared::PrincipledValues values = extended("KHR_materials_iridescence", {{"iridescenceFactor", 0.5},
+                                                                             {"iridescenceTexture", kTexture},
+                                                                             {"iridescenceThicknessMinimum", 200},
+                                                                             {"iridescenceThicknessMaximum", 600},
+                                                                             {"iridescenceThicknessTexture", kTexture}})
+                                          .values;
+    EXPECT_NEAR(values.rare.film, 0.5 * kLinear.r, kRounding);
+    EXPECT_NEAR(values.rare.filmThickness, 200 + 400 * kLinear.g, 1e-3);
+    EXPECT_NEAR(values.rare.filmIor, 1.3, kRounding);
+    values = extended("KHR_materials_iridescence", {{"iridescenceFactor", 1}}).values;
+    EXPECT_NEAR(values.rare.filmThickness, 400, 1e-3);
+    values = extended("KHR_materials_diffuse_transmission", {{"diffuseTransmissionFactor", 0.75},
+                                                             {"diffuseTransmissionTexture", kTexture},
+                                                             {"diffuseTransmissionColorFactor", {0.9, 0.6, 0.3}},
+                                                             {"diffuseTransmissionColorTexture", kTexture}})
+                 .values;
+    EXPECT_NEAR(values.rare.beyond, 0.75 * kAlpha, kRounding);
+    expectColor(dvec3(values.rare.beyondColor), dvec3(0.9, 0.6, 0.3) * kSrgb);
+}
+
+// By channel at Fraunhofer's lines, only where light is bent.
+TEST_F(GltfProducts, OfDispersion) {
+    json extensions = {{"KHR_materials_ior", {{"ior", 1.6}}},
+                       {"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                       {"KHR_materials_volume", {{"thicknessFactor", 1}}},
+                       {"KHR_materials_dispersion", {{"dispersion", 2}}}};
+    const shared::Principled glass = see({{"extensions", extensions}}).record;
+    EXPECT_NEAR(glass.channelIor.x, 1.6 + 0.6 * 2 / 20 * (523655 / (656.3 * 656.3) - 1.5168), 1e-4);
+    EXPECT_NEAR(glass.channelIor.y, 1.6, 1e-6);
+    EXPECT_NEAR(glass.channelIor.z, 1.6 + 0.6 * 2 / 20 * (523655 / (486.1 * 486.1) - 1.5168), 1e-4);
+    EXPECT_EQ(glass.glass, glass.channelGlass.y);
+    EXPECT_NE(glass.channelGlass.x, glass.channelGlass.z);
+    extensions.erase("KHR_materials_volume");
+    EXPECT_EQ(see({{"extensions", extensions}}).record.channelIor, shared::vec3(0));
 }
 
 TEST_F(GltfProducts, OfColorsOfExtensions) {

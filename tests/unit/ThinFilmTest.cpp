@@ -8,6 +8,7 @@
 
 #include "Common/Shared/Material/PrincipledSurface.h"
 #include "tests/unit/DirectionCells.h"
+#include "tests/unit/Oracles.h"
 #include "tests/unit/PrincipledSurfaces.h"
 
 namespace rt::shared {

@@ -1,4 +1,5 @@
-// What a path chooses at a vertex before it scatters there: the side of a surface that transmits diffusely.
+// What a path chooses at a vertex before it scatters there: the side of a surface that transmits diffusely, the colour
+// channel where glass disperses.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -89,6 +90,37 @@ TEST(VertexChoice, OpaqueSurfacesHaveOneSide) {
     EXPECT_EQ(v.wo, before.wo);
     EXPECT_EQ(v.normal, before.normal);
     EXPECT_EQ(v.values.rare.isBeyond, 0u);
+}
+
+// Every channel keeps its mean, and has its own index and table; a path of one channel keeps it.
+TEST(VertexChoice, ChannelsKeepTheirMeans) {
+    Principled p = principledOf({"glass", 0, 1}, 0.3f);
+    p.channelIor = vec3(1.4f, 1.5f, 1.7f);
+    p.channelGlass = uvec3(100, 200, 300);
+    SceneArraysOf<std::vector> arrays;
+    arrays.principled = {p};
+    const SceneView scene = viewOf(arrays, {});
+    const Vertex before = translucentVertex(p, vec3(1), test::outgoingAt(0.5));
+    Sampler smp{};
+    smp.kind = kSamplerIndependent;
+    for (const vec3& throughput : {vec3(1), vec3(0.5f, 0, 2), vec3(0, 0, 3), vec3(0, 0.1f, 0)}) {
+        Mean means[3];
+        for (smp.index = 0; smp.index < 20000; ++smp.index) {
+            Vertex v = before;
+            PathState s = pathOf(throughput);
+            chooseChannel(kFeatureAll, scene, smp, 0, s, v);
+            int left = 0;
+            for (int c = 0; c < 3; ++c) {
+                means[c].add(double(s.throughput[c]));
+                if (s.throughput[c] == 0) continue;
+                ++left;
+                ASSERT_EQ(v.values.ior, p.channelIor[c]);
+                ASSERT_EQ(v.values.glass, p.channelGlass[c]);
+            }
+            ASSERT_EQ(left, 1);
+        }
+        for (int c = 0; c < 3; ++c) EXPECT_TRUE(test::agrees(means[c], double(throughput[c]))) << c;
+    }
 }
 
 } // namespace

@@ -5,7 +5,7 @@
 
 namespace rt::scene {
 
-// The table that directionalAlbedo() and sheenAlbedo() of PrincipledSurface.h read, kAlbedoSteps rows of as many
+// The table that directionalAlbedo() and sheenAlbedo() of PrincipledAlbedos.h read, kAlbedoSteps rows of as many
 // entries: by quadrature, the first time that it is asked for.
 const std::vector<shared::vec3>& directionalAlbedos();
 

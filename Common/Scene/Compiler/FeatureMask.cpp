@@ -101,6 +101,7 @@ shared::Features featureMask(const CompiledScene& scene) {
             need(true, shared::kFeatureVertexAttributes); // which no other kind of material looks at
             need(letsRaysThrough(scene.principled[i]), shared::kFeatureOpacity);
             need(hasCoatNormal(scene.principled[i]), shared::kFeatureCoatNormal);
+            need(scene.principled[i].channelIor.x > 0, shared::kFeatureDispersion);
             need(scene.principled[i].diffuseTransmission.factor != 0, shared::kFeatureDiffuseTransmission);
             need(scene.principled[i].iridescence.factor != 0, shared::kFeatureIridescence);
             need(scene.principled[i].anisotropy.factor != 0, shared::kFeatureAnisotropy);

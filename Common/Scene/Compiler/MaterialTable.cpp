@@ -1,6 +1,7 @@
 #include "Common/Scene/Compiler/MaterialTable.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <type_traits>
 
@@ -13,6 +14,18 @@ namespace rt::scene {
 namespace {
 
 constexpr double kMinAttenuation = 1e-6; // of attenuation colours: black would absorb infinitely much
+
+// Of red, green and blue, in nm: Fraunhofer's lines C, d and F, by which the Abbe number says how far apart the
+// outer two are. At d the index is the material's own.
+constexpr std::array<double, 3> kChannelWavelengths = {656.3, 587.6, 486.1};
+
+// Cauchy's equation for an index of refraction at 587.6 nm and 20 over an Abbe number, as in KHR_materials_dispersion.
+double dispersedIor(double ior, double dispersion, double wavelength) {
+    const auto squared = [](double x) { return 1 / (x * x); };
+    const double part = (squared(wavelength) - squared(kChannelWavelengths[1])) /
+                        (squared(kChannelWavelengths[2]) - squared(kChannelWavelengths[0]));
+    return ior + (ior - 1) * dispersion / 20 * part;
+}
 
 // Share of the rays that meet a surface; of one whose opacity has a texture 1, which bounds it.
 double constantOpacity(const shared::Principled& p) {
@@ -106,14 +119,7 @@ void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
     p.ior = static_cast<float>(desc.ior);
     p.thin = desc.isThin ? 1u : 0u;
     p.glass = shared::kNone;
-    if (desc.transmission.factor != 0 && !desc.isThin) {
-        const auto [entry, isNew] = glass_.try_emplace(p.ior, static_cast<std::uint32_t>(out_.glassAlbedos.size()));
-        if (isNew) {
-            const std::vector<float> albedos = glassAlbedos(p.ior);
-            out_.glassAlbedos.insert(out_.glassAlbedos.end(), albedos.begin(), albedos.end());
-        }
-        p.glass = entry->second;
-    }
+    if (desc.transmission.factor != 0 && !desc.isThin) addGlass(desc, p);
     if (desc.attenuationDistance)
         for (int c = 0; c < 3; ++c)
             p.absorption[c] = static_cast<float>(-std::log(std::max(desc.attenuationColor[c], kMinAttenuation)) /
@@ -129,6 +135,28 @@ void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
     p.emitsColors = desc.emitsColors ? 1u : 0u;
     out_.principled.resize(out_.materials.size());
     out_.principled.push_back(p);
+}
+
+std::uint32_t MaterialTable::glassTable(float ior) {
+    const auto [entry, isNew] = glass_.try_emplace(ior, static_cast<std::uint32_t>(out_.glassAlbedos.size()));
+    if (isNew) {
+        const std::vector<float> albedos = glassAlbedos(ior);
+        out_.glassAlbedos.insert(out_.glassAlbedos.end(), albedos.begin(), albedos.end());
+    }
+    return entry->second;
+}
+
+void MaterialTable::addGlass(const PrincipledDesc& desc, shared::Principled& p) {
+    if (desc.dispersion == 0) {
+        p.glass = glassTable(p.ior);
+        return;
+    }
+    for (int c = 0; c < 3; ++c) {
+        const double ior = dispersedIor(desc.ior, desc.dispersion, kChannelWavelengths[static_cast<std::size_t>(c)]);
+        p.channelIor[c] = static_cast<float>(std::clamp(ior, 1.0, kLargestIor));
+        p.channelGlass[c] = glassTable(p.channelIor[c]);
+    }
+    p.glass = p.channelGlass.y;
 }
 
 // A texture that is one colour everywhere becomes part of the rotation.

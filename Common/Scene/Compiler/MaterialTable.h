@@ -66,6 +66,8 @@ class MaterialTable {
     void addPrincipled(const PrincipledDesc& desc);
     std::uint32_t normalMap(const std::string& name); // kNone where there is none or it is grey
     void addAnisotropy(const PrincipledDesc& desc, shared::Principled& p);
+    void addGlass(const PrincipledDesc& desc, shared::Principled& p);
+    std::uint32_t glassTable(float ior); // first of its albedos
 
     const SceneDesc& desc_;
     const CompileOptions& options_;

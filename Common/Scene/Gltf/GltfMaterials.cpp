@@ -193,6 +193,8 @@ void GltfMaterials::addDielectric(const tinygltf::ExtensionMap& extensions, Prin
                                           GltfSlot(*transmission, "transmissionTexture"), Channel::Red);
         p.isThin = true; // unless it has a volume
     }
+    if (const auto* dispersion = extension(extensions, "KHR_materials_dispersion"))
+        p.dispersion = std::clamp(numberOf(*dispersion, "dispersion", 0), 0.0, kLargest);
     if (const auto* diffuse = extension(extensions, "KHR_materials_diffuse_transmission")) {
         p.diffuseTransmission = textures_.number(numberOf(*diffuse, "diffuseTransmissionFactor", 0),
                                                  GltfSlot(*diffuse, "diffuseTransmissionTexture"), Channel::Alpha);

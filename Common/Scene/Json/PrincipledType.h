@@ -32,6 +32,7 @@ void forEachPrincipledParameter(const Visit& visit) {
     visit(SceneParameter{"iridescence_thickness_minimum", false, "in nm", 0}, &D::iridescenceThicknessMinimum);
     visit(SceneParameter{"iridescence_thickness_maximum", false, "in nm", 0}, &D::iridescenceThicknessMaximum);
     visit(SceneParameter{"transmission", false, "share of the dielectric that lets light through"}, &D::transmission);
+    visit(SceneParameter{"dispersion", false, "of glass: 20 over its Abbe number; 0: none", 0}, &D::dispersion);
     visit(SceneParameter{"thin_walled", false, "transmits without bending"}, &D::isThin);
     visit(SceneParameter{"attenuation_color", false, "what is left of white after attenuation_distance inside"},
           &D::attenuationColor);

@@ -59,13 +59,15 @@
 //   Anisotropy  facets that are rougher along one direction of the surface
 //   Iridescence thin films
 //   DiffuseTransmission  surfaces that transmit light into all directions
+//   Dispersion  glass that bends each colour channel its own way
 #define RT_MATERIAL_FEATURES(FEATURE)          \
     FEATURE(Fuzz, 31u, "fuzz")                 \
     FEATURE(CoatNormal, 30u, "coat-normal")    \
     FEATURE(Opacity, 29u, "opacity")           \
     FEATURE(Anisotropy, 28u, "anisotropy")     \
     FEATURE(Iridescence, 27u, "iridescence")   \
-    FEATURE(DiffuseTransmission, 26u, "diffuse-transmission")
+    FEATURE(DiffuseTransmission, 26u, "diffuse-transmission") \
+    FEATURE(Dispersion, 25u, "dispersion")
 
 // Methods that settings ask for.
 //   Mixture      Shirley's mixture, where there are lights or targets

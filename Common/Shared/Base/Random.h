@@ -20,7 +20,7 @@ const uint kDimensionRoulette = 2u;  // x: survival of the roulette, y: techniqu
 const uint kDimensionSelection = 3u; // choice of the light where there are too many to stretch kDimensionLight
 const uint kDimensionMedium = 4u;    // x: free flight in medium 0; medium m uses dimension kDimensionMedium + (m << 16)
 const uint kDimensionConnection = 5u; // place on a light behind a sphere
-const uint kDimensionSide = 6u;       // x: side of a surface on which the path goes on
+const uint kDimensionSide = 6u;       // x: side of a surface on which the path goes on, y: its colour channel
 const uint kDimensionsPerVertex = 8u;
 
 RT_FN uint vertexDimension(uint vertex, uint dimension) {

@@ -34,9 +34,9 @@
 
 // What follows from them.
 #define RT_SCENE_DERIVED_ARRAYS(PLAIN, OWN) \
-    PLAIN(vec3, directionalAlbedos, loadDirectionalAlbedo, "materials") /* see PrincipledSurface.h; empty without */ \
-    PLAIN(vec2, stretchedAlbedos, loadStretchedAlbedo, "materials") /* of anisotropic ones; PrincipledSurface.h */ \
-    PLAIN(float, glassAlbedos, loadGlassAlbedo, "materials") /* of each index of refraction; PrincipledSurface.h */ \
+    PLAIN(vec3, directionalAlbedos, loadDirectionalAlbedo, "materials") /* see PrincipledAlbedos.h; empty without */ \
+    PLAIN(vec2, stretchedAlbedos, loadStretchedAlbedo, "materials") /* of anisotropic ones; PrincipledAlbedos.h */ \
+    PLAIN(float, glassAlbedos, loadGlassAlbedo, "materials") /* of each index of refraction; PrincipledAlbedos.h */ \
     PLAIN(uint, triangleMesh, loadTriangleMesh, "triangles") /* mesh of each triangle */ \
     PLAIN(SpecularCaster, specularCasters, loadSpecularCaster, "connections") /* kConnectedSpheres at most */ \
     PLAIN(CasterLight, casterLights, loadCasterLight, "connections") /* of each of them, see SpecularCaster */ \

@@ -64,7 +64,7 @@ const uint kSidesFront = 1u;
 const uint kSidesBoth = 3u;
 
 const uint kMaterialParameters = 2u;
-const uint kAlbedoSteps = 32u; // of the table of directional albedos, see PrincipledSurface.h
+const uint kAlbedoSteps = 32u; // of the table of directional albedos, see PrincipledAlbedos.h
 // Of that of stretched facets: cosines, directions about the normal, roughnesses, strengths.
 const uint kStretchedCosines = 16u;
 const uint kStretchedTurns = 8u;

@@ -49,6 +49,8 @@ struct Principled {
     float ior;          // index of refraction inside over outside, >= 1
     uint thin;          // 1: transmits without bending, as a sheet does
     uint glass;         // first of the glassAlbedos of its index; kNone: it is thin, or nothing is transmitted
+    vec3 channelIor;    // of glass that disperses, by colour channel; zero: it does not
+    uvec3 channelGlass; // as `glass`, of each of them
     vec3 absorption;    // per world unit of length inside
     uint normalTexture; // tangent-space normals, 2 rgb - 1; kNone: none
     float normalScale;  // of their x and y

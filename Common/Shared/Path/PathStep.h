@@ -1,7 +1,8 @@
 // The path tracer: a path, vertex by vertex. Each vertex goes through these stages:
 //
 //   shadeHit             collision in a medium, emission weighed against the light sampling of the vertex before, surface,
-//                        the side on which the path goes on where light is transmitted diffusely
+//                        the side on which the path goes on where light is transmitted diffusely, its channel where
+//                        glass disperses
 //   choose a light       mis, mixture: chooseLight() by lightSelectionSample()
 //   sample and weigh it  mis: sampleDirectLight(), which leaves a shadow ray
 //   scatter              the bsdf's sample, or in its place the mixture's
@@ -120,6 +121,7 @@ RT_FN bool shadeHit(Features features, SceneRef scene, RT_IN(RenderParams) param
         addEmission(features, scene, params, surface, material, hit.t, share, s);
         if (material.kind == kMaterialEmitter || endsAtMaxDepth(params, s)) return false;
         placeOnSurface(features, scene, s, surface, material, v);
+        chooseChannel(features, scene, smp, surface.material, s, v);
         chooseSide(features, smp, s, v);
         if (!goOnAtSurface(features, params, surface, v, s, step)) return false;
     }

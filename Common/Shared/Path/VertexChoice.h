@@ -8,6 +8,32 @@ RT_SHARED_BEGIN
 
 const float kOddsOfReflection = 0.05f; // keeps some for what no number below tells of: facets' reflection
 
+// Where glass disperses a path goes on with one colour channel, chosen as likely as it weighs and weighed accordingly,
+// and with the index of refraction of that channel. What has chosen before has one channel left, and keeps it.
+RT_FN void chooseChannel(Features features, SceneRef scene, RT_IN(Sampler) smp, uint material, RT_INOUT(PathState) s,
+                         RT_INOUT(Vertex) v) {
+    if (!has(features, kFeatureDispersion) || !isPrincipled(features, v.bsdf)) return;
+    if (!hasLobe(v.values.others, kLobeGlass) || v.values.thin != 0u) return;
+    RT_IN(Principled) p = loadPrincipled(scene, material);
+    if (!(p.channelIor.x > 0.0f)) return;
+    vec3 t = s.throughput;
+    float sum = t.x + t.y + t.z;
+    float u = sample2D(smp, vertexDimension(v.index, kDimensionSide)).y * sum;
+    if (u < t.x) {
+        s.throughput = vec3(sum, 0.0f, 0.0f);
+        v.values.ior = p.channelIor.x;
+        v.values.glass = p.channelGlass.x;
+    } else if (u < t.x + t.y || !(t.z > 0.0f)) {
+        s.throughput = vec3(0.0f, sum, 0.0f);
+        v.values.ior = p.channelIor.y;
+        v.values.glass = p.channelGlass.y;
+    } else {
+        s.throughput = vec3(0.0f, 0.0f, sum);
+        v.values.ior = p.channelIor.z;
+        v.values.glass = p.channelGlass.z;
+    }
+}
+
 // The probability with which a path goes on beyond a surface that transmits diffusely: the share of that light, about.
 RT_FN float oddsBeyond(RT_IN(PrincipledValues) values, vec3 albedo) {
     float base = (1.0f - values.metallic) * (1.0f - values.transmission);
