@@ -193,8 +193,8 @@ template <Features kFeatures>
 RT_CALL void weighRareSamples(const RenderParams& params, uint principled, RecordLanes<DirectLight>& direct,
                               const PathLanes& lanes) {
     eachLane(principled, [&](uint i) {
+        if (!hasLobe(lanesOf<&PrincipledLobes::others>(lanes.lobes).at[i], kLobesRare)) return;
         const Vertex v = vertexIn<kFeatures>(lanes, i);
-        if (!hasLobe(v.bsdf.lobes.others, kLobesRare)) return;
         const float probability = lanesOf<&LightChoice::probability>(lanes.choices).at[i];
         const bool isPunctualSample = isPunctual(kFeatures, get(lanes.lights, i));
         set(direct, i,
@@ -226,7 +226,8 @@ RT_FN void weighSamples(const RenderParams& params, uint lit, PathLanes& lanes) 
     } else {
         weighSamples<kPrincipled, kLobesLayered>(params, direct, lanes);
     }
-    if (has(kFeatures, kRareFeatures)) weighRareSamples<kPrincipled>(params, principled, direct, lanes);
+    if (has(kFeatures, kRareFeatures) && hasLobe(others, kLobesRare))
+        weighRareSamples<kPrincipled>(params, principled, direct, lanes);
     eachLane(principled, [&](uint i) { set(lanes.direct, i, get(direct, i)); });
 }
 

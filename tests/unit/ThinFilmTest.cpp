@@ -8,8 +8,8 @@
 
 #include "Common/Shared/Material/PrincipledSurface.h"
 #include "tests/unit/DirectionCells.h"
-#include "tests/unit/Oracles.h"
 #include "tests/unit/PrincipledSurfaces.h"
+#include "tests/unit/Statistics.h"
 
 namespace rt::shared {
 namespace {
