@@ -13,6 +13,7 @@
 #include "Common/App/Session/Outputs.h"
 #include "Common/Gui/FrameTimer.h"
 #include "Common/Gui/ImGuiLayer.h"
+#include "Common/Gui/ObjectTools.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Panels/SavePaths.h"
 #include "Common/Gui/PictureArea.h"
@@ -307,6 +308,7 @@ void App::drawInterface() {
     gui_.previewWidth = picture_.previewWidth();
     picture_.handlePointer();
     drawSelection(gui_, picture_.imageRect(), area);
+    drawTools(gui_, picture_.imageRect(), area);
     drawViewLegend(gui_, area, scale);
     drawChips(gui_, area, picture_.imageRect(), scale);
     drawOverlay(gui_, area, scale);

@@ -9,6 +9,7 @@
 
 #include "Common/App/Interactive/VisibleSurface.h"
 #include "Common/Core/Printable.h"
+#include "Common/Gui/ObjectTools.h"
 #include "Common/Gui/Theme.h"
 
 namespace rt::gui {
@@ -185,36 +186,48 @@ void PictureArea::handlePointer() {
     drawGrid();
     const std::optional<Pixel> pixel = inside ? pixelUnderPointer() : std::nullopt;
     inspect(pixel);
-    if (gui_.editing.tool) return handleTool();
+    if (gui_.editing.tool || gripGizmo(gui_, imageRect(), inside)) return handleTool(pixel);
     select(inside, pixel);
-    if (inside && io.MouseClicked[0] && (gui_.pickFocus || io.KeyCtrl)) {
+    if (inside && io.MouseClicked[0] && (gui_.pickFocus || (io.KeyCtrl && io.KeyShift))) {
         gui_.pickFocus = false;
         dragging_ = false; // the press that picks does not orbit
         if (pixel)
             gui_.session.pickFocus((*pixel)[0], (*pixel)[1]);
         else
             gui_.say("The picture is elsewhere: nothing was picked");
-    } else if (dragging_ && io.MouseDown[0] && isSplit() && !io.KeyAlt) {
+    } else if (dragging_ && io.MouseDown[0] && isSplit() && !io.KeyAlt && !isAdding_) {
         gui_.split = std::clamp((io.MousePos.x - area_.x) / std::max(1.0f, area_.width), 0.0f, 1.0f);
     }
     if (dragging_ && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) drag();
     if (inside && io.MouseWheel != 0) turnWheel();
 }
 
-// A click says where the object stays that the pointer has, and does nothing else.
-void PictureArea::handleTool() {
-    dragging_ = false;
-    if (ImGui::GetIO().MouseClicked[0]) endTool(gui_, true);
-    if (ImGui::GetIO().MouseClicked[1]) endTool(gui_, false);
+// A click, or of the gizmo the release, says where the object stays that the pointer has, and does nothing else; but a
+// click on a handle that goes nowhere is one on what is behind that.
+void PictureArea::handleTool(const std::optional<Pixel>& pixel) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool isDrag = gui_.editing.drag.has_value();
+    dragging_ = isClick_ = false;
+    followTool(gui_, imageRect());
+    if (io.MouseClicked[1]) return endTool(gui_, false);
+    if (!isDrag && io.MouseClicked[0]) return endTool(gui_, true);
+    if (!isDrag || io.MouseDown[0]) return;
+    const bool isClick = !isDragged(gui_);
+    endTool(gui_, !isClick);
+    if (isClick && pixel) pickObject(gui_, *pixel, io.KeyCtrl);
 }
 
 // By a press and its release, unless the pointer has been dragged in between.
 void PictureArea::select(bool inside, const std::optional<Pixel>& pixel) {
     const ImGuiIO& io = ImGui::GetIO();
-    if (io.MouseClicked[0]) isClick_ = inside && !gui_.pickFocus && !io.KeyCtrl && !io.KeyAlt && !isSplit();
+    if (io.MouseClicked[0]) {
+        isAdding_ = io.KeyCtrl;
+        isClick_ = inside && !gui_.pickFocus && !(io.KeyCtrl && io.KeyShift) && !io.KeyAlt && (isAdding_ || !isSplit());
+    }
     if (ImGui::IsMouseDragging(0)) isClick_ = false;
     if (!io.MouseReleased[0] || !std::exchange(isClick_, false) || !inside) return;
-    pixel ? pickObject(gui_, *pixel) : deselect(gui_);
+    if (pixel) return pickObject(gui_, *pixel, isAdding_);
+    if (!isAdding_) deselect(gui_);
 }
 
 void PictureArea::drag() {

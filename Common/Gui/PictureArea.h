@@ -41,7 +41,7 @@ class PictureArea {
     void mark(const Pixel& pixel) const;
     void inspect(const std::optional<Pixel>& pixel);
     void drag();
-    void handleTool();
+    void handleTool(const std::optional<Pixel>& pixel);
     void select(bool inside, const std::optional<Pixel>& pixel);
     void turnWheel();
 
@@ -60,6 +60,7 @@ class PictureArea {
     Seen seen_;
     std::string seenMaterial_;
     bool isClick_ = false;  // a press in the picture that has not become a drag
+    bool isAdding_ = false; // the latest press selects what is there besides
     bool dragging_ = false; // a drag that began in the picture goes on outside of it
 };
 

@@ -9,6 +9,8 @@
 #include "Common/App/Interactive/VisibleSurface.h"
 #include "Common/Core/Error.h"
 #include "Common/Gui/Gui.h"
+#include "Common/Gui/ObjectTools.h"
+#include "Common/Gui/PicturePlaces.h"
 #include "Common/Gui/Theme.h"
 #include "Common/Gui/Widgets.h"
 #include "Common/Scene/Edit/ObjectMotion.h"
@@ -17,22 +19,8 @@ namespace rt::gui {
 namespace {
 
 constexpr ImU32 kMark = IM_COL32(255, 170, 40, 255);
-constexpr float kLightRadius = 7; // of the mark of a light without extent, in the window's units
-
-app::ViewProjection projectionOf(const Gui& gui) {
-    const app::RenderSettings& settings = gui.state.settings;
-    const double aspect = static_cast<double>(settings.width) / std::max(1u, settings.height);
-    return {gui.camera.camera(), aspect};
-}
-
-ImVec2 inWindow(const glm::dvec2& place, const Rect& image) {
-    return {image.x + static_cast<float>(place.x) * image.width, image.y + static_cast<float>(place.y) * image.height};
-}
-
-glm::dvec2 pointerPlace(const Rect& image) {
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    return {(mouse.x - image.x) / std::max(1.0f, image.width), (mouse.y - image.y) / std::max(1.0f, image.height)};
-}
+constexpr std::size_t kMostBoxes = 200; // of as many objects each is outlined; of more all in one
+constexpr float kLightRadius = 7;       // of the mark of a light without extent, in the window's units
 
 // What the click met, as soon as the description and the picture's scene name the same objects.
 void resolveClick(Gui& gui) {
@@ -41,9 +29,10 @@ void resolveClick(Gui& gui) {
     const SceneEditing::Click click = *std::exchange(editing.click, std::nullopt);
     const auto surface = app::visibleSurface(*gui.state.scene, click.camera, {click.size[0], click.size[1]},
                                              {click.pixel[0], click.pixel[1]});
-    if (!surface) return deselect(gui);
+    if (!surface) return click.isAdded ? void() : deselect(gui);
     const scene::ObjectPath path = pathOfLeaf(gui.editor.document()->scene(), surface->object);
-    gui.editor.select(path);
+    click.isAdded ? gui.editor.toggle(path) : gui.editor.select(path);
+    editing.rangeStart = path;
     editing.revealsSelection = true;
     gui.settings.openPanels["objects"] = true;
     gui.revealPanel = "objects";
@@ -73,14 +62,29 @@ void followEditing(Gui& gui) {
         if (std::exchange(gui.editing.goesOnAfterSaving, false))
             if (const auto action = std::exchange(gui.editing.whenSaved, {})) action();
     }
-    if (gui.editing.tool && !gui.editor.selection()) gui.editing.tool.reset();
+    if (gui.editing.tool && !gui.editor.selection()) {
+        gui.editing.tool.reset(); // with the scene that it was of
+        gui.editing.drag.reset();
+    }
     if (ImGui::IsMouseClicked(0)) gui.editing.pressGesture = gui.editor.newGesture();
     resolveClick(gui);
+}
+
+std::vector<scene::SceneEdit> movedAll(const scene::SceneDesc& scene, const std::vector<scene::ObjectPath>& paths,
+                                       const scene::Transform& steps) {
+    std::vector<scene::SceneEdit> edits;
+    for (const scene::ObjectPath& path : paths) edits.push_back(moved(scene, path, steps));
+    return edits;
+}
+
+std::string ofHowMany(std::size_t count) {
+    return count == 1 ? "" : " " + std::to_string(count) + " objects";
 }
 
 // ---- the history ---------------------------------------------------------------------------------------------------
 
 bool editScene(Gui& gui, const std::string& name, std::vector<scene::SceneEdit> edits, bool isHeld) {
+    if (edits.empty()) return false;
     try {
         const std::uint64_t gesture = isHeld && ImGui::IsMouseDown(0) ? gui.editing.pressGesture : 0;
         gui.editor.perform(name, std::move(edits), gesture);
@@ -152,11 +156,11 @@ void drawUnsaved(Gui& gui) {
 
 // ---- the selection -------------------------------------------------------------------------------------------------
 
-void pickObject(Gui& gui, const std::array<std::uint32_t, 2>& pixel) {
+void pickObject(Gui& gui, const std::array<std::uint32_t, 2>& pixel, bool isAdded) {
     const image::Image* picture = gui.state.picture.image.get();
     if (picture == nullptr || !gui.state.scene) return;
     gui.editor.begin();
-    gui.editing.click = SceneEditing::Click{gui.camera.camera(), pixel, {picture->width, picture->height}};
+    gui.editing.click = SceneEditing::Click{gui.camera.camera(), pixel, {picture->width, picture->height}, isAdded};
 }
 
 void deselect(Gui& gui) {
@@ -166,71 +170,53 @@ void deselect(Gui& gui) {
 
 void deleteSelection(Gui& gui) {
     if (!gui.editor.selection() || gui.editing.tool) return;
-    const scene::ObjectPath path = *gui.editor.selection();
-    if (editScene(gui, "Delete", {scene::PlaceObject{path, {}}}, false)) gui.editor.select(std::nullopt);
-}
-
-// Beside it by a fifth of its size, so that it is seen.
-void duplicateSelection(Gui& gui) {
-    if (!gui.editor.selection() || gui.editing.tool) return;
-    const scene::SceneDesc& scene = gui.editor.document()->scene();
-    scene::ObjectPath path = *gui.editor.selection();
-    const scene::ObjectDesc copy = *findObject(scene, path);
-    const auto bounds = gui.editor.selectionBounds(gui.state);
-    const double size = bounds ? glm::length(bounds->upper - bounds->lower) : 0;
-    ++path.indices.back();
-    if (!editScene(gui, "Duplicate", {scene::PlaceObject{path, copy}}, false)) return;
-    const glm::dvec3 right =
-        glm::normalize(glm::cross(gui.camera.camera().lookAt - gui.camera.camera().lookFrom, gui.camera.camera().up));
-    gui.editor.select(path);
-    gui.editing.revealsSelection = true;
-    if (size > 0) editScene(gui, "Move", {moved(scene, path, {scene::Translate{0.2 * size * right}})}, false);
-}
-
-void frameSelection(Gui& gui) {
-    const auto bounds = gui.editor.selectionBounds(gui.state);
-    if (!bounds) return gui.say("What is selected has no extent to be framed");
-    gui.camera.frame(bounds->center(), bounds->radius(), projectionOf(gui).aspect());
-}
-
-// ---- tools ---------------------------------------------------------------------------------------------------------
-
-void beginTool(Gui& gui, app::ObjectTool::Kind kind) {
-    if (!gui.editor.selection()) return;
-    if (gui.editing.tool) endTool(gui, false);
-    const auto bounds = gui.editor.selectionBounds(gui.state);
-    const auto light = lightPosition(gui.editor.document()->scene(), *gui.editor.selection());
-    if (!bounds && !light) return gui.say("What is selected is nowhere that it could be moved from");
-    const glm::dvec3 pivot = light ? *light : bounds->center();
-    gui.editing.tool.emplace(kind, pivot, pointerPlace(gui.shownImage));
-    gui.editing.toolGesture = gui.editor.newGesture();
-}
-
-void endTool(Gui& gui, bool isConfirmed) {
-    if (!std::exchange(gui.editing.tool, std::nullopt)) return;
-    if (!isConfirmed) gui.editor.giveUp(gui.editing.toolGesture);
-    afterHistory(gui);
+    const std::vector<scene::ObjectPath> paths = gui.editor.selected().paths();
+    gui.editor.select(std::nullopt);
+    if (!editScene(gui, "Delete" + ofHowMany(paths.size()), removed(paths), false))
+        gui.editor.select(paths, paths.back());
 }
 
 namespace {
 
-void followPointer(Gui& gui, const Rect& image) {
-    const app::ObjectTool& tool = *gui.editing.tool;
-    const ImVec2 moved = ImGui::GetIO().MouseDelta;
-    if (moved.x == 0 && moved.y == 0 && !gui.editing.isToolStale) return;
-    gui.editing.isToolStale = false;
-    const auto steps = tool.steps(projectionOf(gui), pointerPlace(image));
-    if (!steps) return;
-    constexpr const char* kNames[] = {"Move", "Turn", "Scale"};
-    try {
-        const scene::ObjectPath path = *gui.editor.selection();
-        const auto edit = [&](const scene::SceneDesc& scene) { return scene::moved(scene, path, *steps); };
-        gui.editor.performAnew(kNames[static_cast<int>(tool.kind())], edit, gui.editing.toolGesture);
-        gui.say(tool.text(*steps));
-    } catch (const Error& error) {
-        tell(gui, error);
-    }
+glm::dvec3 rightOf(const scene::CameraDesc& camera) {
+    return glm::normalize(glm::cross(camera.lookAt - camera.lookFrom, camera.up));
 }
+
+} // namespace
+
+// Beside itself by a fifth of its size, so that it is seen.
+void duplicateSelection(Gui& gui) {
+    if (!gui.editor.selection() || gui.editing.tool) return;
+    const scene::Bounds& bounds = gui.editor.outline(gui.state).all;
+    const double size = bounds.empty() ? 0 : glm::length(bounds.upper - bounds.lower);
+    const std::string name = "Duplicate" + ofHowMany(gui.editor.selected().size());
+    std::vector<scene::ObjectPath> copies;
+    auto edits = duplicated(gui.editor.document()->scene(), gui.editor.selected().paths(), copies);
+    if (!editScene(gui, name, std::move(edits), false)) return;
+    gui.editor.select(copies, copies.back());
+    gui.editing.revealsSelection = true;
+    const scene::Transform steps = {scene::Translate{0.2 * size * rightOf(gui.camera.camera())}};
+    if (size > 0 && editScene(gui, "Move", movedAll(gui.editor.document()->scene(), copies, steps), false))
+        gui.editor.joinSteps(name);
+}
+
+void assignMaterial(Gui& gui, const std::string& name) {
+    std::vector<scene::SceneEdit> edits;
+    for (const scene::ObjectPath& path : gui.editor.selected().paths())
+        if (materialNameOf(*findObject(gui.editor.document()->scene(), path)) != nullptr)
+            edits.push_back(scene::SetMaterialOf{path, name});
+    editScene(gui, "Assign material", std::move(edits), false);
+}
+
+void frameSelection(Gui& gui) {
+    const scene::Bounds& bounds = gui.editor.outline(gui.state).all;
+    if (!(bounds.radius() > 0)) return gui.say("What is selected has no extent to be framed");
+    gui.camera.frame(bounds.center(), bounds.radius(), projectionOf(gui).aspect());
+}
+
+// ---- the outline --------------------------------------------------------------------------------------------------
+
+namespace {
 
 // Its corners alone, which hide little of what is in it.
 void drawBox(const scene::Bounds& bounds, const app::ViewProjection& view, const Rect& image, ImDrawList& list) {
@@ -262,14 +248,16 @@ void drawLight(const ImVec2& at, ImDrawList& list) {
 void drawSelection(Gui& gui, const Rect& image, const Rect& area) {
     gui.shownImage = image;
     if (!gui.editor.selection() || !gui.state.picture.image) return;
-    if (gui.editing.tool) followPointer(gui, image);
-    if (!gui.editor.selection()) return;
     const app::ViewProjection view = projectionOf(gui);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.PushClipRect({area.x, area.y}, {area.x + area.width, area.y + area.height});
-    if (const auto bounds = gui.editor.selectionBounds(gui.state)) drawBox(*bounds, view, image, list);
-    if (const auto light = lightPosition(gui.editor.document()->scene(), *gui.editor.selection()))
-        if (const auto place = view.place(*light)) drawLight(inWindow(*place, image), list);
+    const app::SelectionOutline& outline = gui.editor.outline(gui.state);
+    if (outline.boxes.size() <= kMostBoxes)
+        for (const scene::Bounds& box : outline.boxes) drawBox(box, view, image, list);
+    else
+        drawBox(outline.all, view, image, list);
+    for (std::size_t i = 0; i < std::min(outline.lights.size(), kMostBoxes); ++i)
+        if (const auto place = view.place(outline.lights[i])) drawLight(inWindow(*place, image), list);
     list.PopClipRect();
 }
 

@@ -1,5 +1,4 @@
-// Editing of the scene by way of the window, beyond its panels: what is clicked in the picture, how that is seen, and
-// what moves with the pointer.
+// Editing of the scene by way of the window, beyond its panels: what is clicked in the picture, and how that is seen.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -7,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "Common/App/Interactive/ObjectList.h"
 #include "Common/App/Interactive/ObjectTool.h"
@@ -23,16 +23,31 @@ struct SceneEditing {
     struct Click {
         scene::CameraDesc camera;
         std::array<std::uint32_t, 2> pixel{}, size{};
+        bool isAdded = false; // to what is selected, or removed from it
     };
     std::optional<Click> click; // until what it meets can be named
+    // What the pointer moves by a handle of the gizmo.
+    struct GizmoDrag {
+        bool hasBegun = false;                    // the pointer has left where it was pressed
+        bool duplicates = false;                  // as soon as it does
+        std::vector<scene::ObjectPath> originals; // of copies, which move; none
+        std::uint64_t copyGesture = 0;
+    };
     std::optional<app::ObjectTool> tool;
-    bool isToolStale = false; // though the pointer rests
+    std::optional<GizmoDrag> drag; // where the tool is by the gizmo
+    bool isToolStale = false;      // though the pointer rests
+    bool isSnapped = false, hasMoved = false;
+    std::string toolText; // beside the pointer; empty: nothing to tell yet
     std::uint64_t toolGesture = 0;
-    std::uint64_t pressGesture = 0; // of what is changed while the mouse is held
+    std::optional<app::ToolAxes> axes; // where the gizmo was last, of the selection with that serial number
+    std::uint64_t axesSelection = 0;
+    std::optional<std::optional<app::ObjectTool::Constraint>> hovered; // the handle under the pointer
+    std::uint64_t pressGesture = 0;                                    // of what is changed while the mouse is held
     app::ObjectList list;
     std::uint64_t listRevision = ~std::uint64_t{0}; // of the scene's structure that it was built of
     std::string listSearch, search;
-    std::set<scene::ObjectPath> open; // groups
+    std::set<scene::ObjectPath> open;            // groups
+    std::optional<scene::ObjectPath> rangeStart; // of the tree's rows that are selected with Shift; none yet
     bool isListStale = true, revealsSelection = false;
     std::string materialCounted; // how many surfaces have it
     std::uint64_t countRevision = ~std::uint64_t{0};
@@ -55,15 +70,18 @@ void saveSceneAs(Gui& gui); // to one that is asked for
 void onceSaved(Gui& gui, std::function<void()> action);
 void drawUnsaved(Gui& gui); // asks for that
 
-void pickObject(Gui& gui, const std::array<std::uint32_t, 2>& pixel); // what is seen there becomes selected
+// What is seen there becomes selected. `isAdded`: beside what is selected by now; or no longer, where it is that.
+void pickObject(Gui& gui, const std::array<std::uint32_t, 2>& pixel, bool isAdded);
 void deleteSelection(Gui& gui);
 void duplicateSelection(Gui& gui);
-void frameSelection(Gui& gui); // moves the camera until it is in sight; turns it not
+void assignMaterial(Gui& gui, const std::string& name); // to what is selected and has surfaces
+void frameSelection(Gui& gui);                          // moves the camera until it is in sight; turns it not
 void deselect(Gui& gui);
 
-// A tool, by which the pointer moves what is selected until a click, Enter or Escape.
-void beginTool(Gui& gui, app::ObjectTool::Kind kind);
-void endTool(Gui& gui, bool isConfirmed);
-void drawSelection(Gui& gui, const Rect& image, const Rect& area); // outlined in the picture; follows the pointer
+void drawSelection(Gui& gui, const Rect& image, const Rect& area); // outlined in the picture
+// Edits that lead all of the objects through the steps, of which none lies within another.
+std::vector<scene::SceneEdit> movedAll(const scene::SceneDesc& scene, const std::vector<scene::ObjectPath>& paths,
+                                       const scene::Transform& steps);
+std::string ofHowMany(std::size_t count); // what follows the name of a step: " 3 objects", nothing for one
 
 } // namespace rt::gui

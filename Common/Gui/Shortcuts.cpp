@@ -6,6 +6,7 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include "Common/Gui/ObjectTools.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 
 namespace rt::gui {

@@ -136,6 +136,19 @@ ImVec4 engineColor(bool isGpu, app::ColorMode mode) {
     return isGpu ? ImVec4{0.34f, 0.71f, 0.91f, 1} : ImVec4{0.90f, 0.62f, 0, 1};
 }
 
+ImVec4 axisColor(int axis) {
+    switch (axis) {
+        case 0:
+            return {1.0f, 0.42f, 0.42f, 1};
+        case 1:
+            return {0.56f, 0.88f, 0.30f, 1};
+        case 2:
+            return {0.45f, 0.70f, 1.0f, 1};
+        default:
+            return {0.95f, 0.95f, 0.95f, 1};
+    }
+}
+
 Rgb surroundColor(app::ColorMode mode) {
     switch (mode) {
         case app::ColorMode::Light:

@@ -21,6 +21,9 @@ ImVec4 accentTextColor(app::ColorMode mode);
 // those who see few colours (Okabe and Ito 2008, "Color Universal Design"), darker where the background is light.
 ImVec4 engineColor(bool isGpu, app::ColorMode mode);
 
+// Of the axes X, Y and Z (0, 1, 2) on dark edges over a picture, in all modes; -1: of what is along none of them.
+ImVec4 axisColor(int axis);
+
 // What surrounds the picture, sRGB: grey, so that its colours are seen as they are.
 struct Rgb {
     float r, g, b;

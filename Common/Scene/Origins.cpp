@@ -52,15 +52,25 @@ class PrimitiveBounds {
     Bounds& bounds_;
 };
 
-// Calls visit(primitive) for those of the world that come from the objects. Runs are not sorted by object: what stands
-// in prototypes follows all else.
+// The index of the range that an object is in; their number: in none.
+std::size_t rangeOf(std::span<const ObjectRange> ranges, std::uint32_t object) {
+    const auto isBefore = [](std::uint32_t index, const ObjectRange& range) { return index < range.first; };
+    const auto after = std::upper_bound(ranges.begin(), ranges.end(), object, isBefore);
+    if (after == ranges.begin()) return ranges.size();
+    const ObjectRange& range = *std::prev(after);
+    return object - range.first < range.count ? static_cast<std::size_t>(after - ranges.begin()) - 1 : ranges.size();
+}
+
+// Calls visit(range, primitive) for those of the world that come from objects in a range. Runs are not sorted by
+// object: what stands in prototypes follows all else.
 template <typename Visit>
-void forEachOf(const std::vector<OriginRun>& runs, std::uint32_t end, std::uint32_t first, std::uint32_t count,
+void forEachOf(const std::vector<OriginRun>& runs, std::uint32_t end, std::span<const ObjectRange> ranges,
                const Visit& visit) {
     for (std::size_t run = 0; run < runs.size(); ++run) {
-        if (runs[run].object - first >= count) continue; // below `first` it wraps around
+        const std::size_t range = rangeOf(ranges, runs[run].object);
+        if (range == ranges.size()) continue;
         const std::uint32_t last = run + 1 < runs.size() ? runs[run + 1].first : end;
-        for (std::uint32_t i = runs[run].first; i < last; ++i) visit(i);
+        for (std::uint32_t i = runs[run].first; i < last; ++i) visit(range, i);
     }
 }
 
@@ -81,26 +91,29 @@ std::uint32_t originOf(std::span<const OriginRun> runs, std::uint32_t primitive)
     return std::prev(std::upper_bound(runs.begin() + 1, runs.end(), primitive, isBefore))->object;
 }
 
-Bounds boundsOfObjects(const CompiledScene& scene, std::uint32_t first, std::uint32_t count) {
-    Bounds bounds;
-    PrimitiveBounds add(scene, bounds);
+std::vector<Bounds> boundsOf(const CompiledScene& scene, std::span<const ObjectRange> ranges) {
+    std::vector<Bounds> bounds(ranges.size());
     const Origins& origins = scene.origins;
     const shared::Geometry& world = scene.geometries[0];
-    forEachOf(origins.spheres, world.sphereCount, first, count, [&](std::uint32_t i) { add.sphere(i); });
-    forEachOf(origins.quads, world.quadCount, first, count, [&](std::uint32_t i) { add.quad(i); });
-    forEachOf(origins.triangles, world.triangleCount, first, count, [&](std::uint32_t i) { add.triangle(i); });
-    forEachOf(origins.rounds, world.roundCount, first, count, [&](std::uint32_t i) { add.round(i); });
+    const auto add = [&](std::size_t range) { return PrimitiveBounds(scene, bounds[range]); };
+    forEachOf(origins.spheres, world.sphereCount, ranges, [&](auto range, auto i) { add(range).sphere(i); });
+    forEachOf(origins.quads, world.quadCount, ranges, [&](auto range, auto i) { add(range).quad(i); });
+    forEachOf(origins.triangles, world.triangleCount, ranges, [&](auto range, auto i) { add(range).triangle(i); });
+    forEachOf(origins.rounds, world.roundCount, ranges, [&](auto range, auto i) { add(range).round(i); });
     std::vector<Bounds> geometries(scene.geometries.size()); // each looked through once, however many instances it has
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        if (origins.instances[i] - first >= count) continue;
+        const std::size_t range = rangeOf(ranges, origins.instances[i]);
+        if (range == ranges.size()) continue;
         const shared::Instance& instance = scene.instances[i];
         Bounds& own = geometries[instance.geometry];
         if (own.empty()) PrimitiveBounds(scene, own).geometry(scene.geometries[instance.geometry]);
-        bounds.add(own, mapOf(instance));
+        bounds[range].add(own, mapOf(instance));
     }
-    if (bounds.empty()) return bounds;
-    bounds.lower += scene.origin;
-    bounds.upper += scene.origin;
+    for (Bounds& box : bounds) {
+        if (box.empty()) continue;
+        box.lower += scene.origin;
+        box.upper += scene.origin;
+    }
     return bounds;
 }
 

@@ -26,7 +26,13 @@ struct Origins {
 // `runs` are not empty, as there is the primitive.
 std::uint32_t originOf(std::span<const OriginRun> runs, std::uint32_t primitive);
 
-// Of all that comes from these objects, in the units and at the place of the description; empty where nothing does.
-Bounds boundsOfObjects(const CompiledScene& scene, std::uint32_t first, std::uint32_t count);
+// Objects that follow each other.
+struct ObjectRange {
+    std::uint32_t first = 0, count = 0;
+};
+
+// For each of the ranges, which are sorted and apart from each other: of all that comes from its objects, in the units
+// and at the place of the description; empty where nothing does.
+std::vector<Bounds> boundsOf(const CompiledScene& scene, std::span<const ObjectRange> ranges);
 
 } // namespace rt::scene

@@ -99,7 +99,7 @@ TEST_P(ControlsTest, ACtrlClickMakesSharpWhatIsThere) {
     key("F12");
     ASSERT_TRUE(eventually([&] { return !fs::is_empty(folder_ / "pictures"); })) << log(); // there are samples
     freeze(true);
-    act("keydown ctrl mousemove 1000 500 click 1 keyup ctrl");
+    act("keydown ctrl keydown shift mousemove 1000 500 click 1 keyup shift keyup ctrl");
     freeze(false);
     EXPECT_TRUE(eventually(isSavedWithAnotherFocus)) << log();
     expectCleanEnd();

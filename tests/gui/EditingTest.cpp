@@ -17,15 +17,41 @@ class EditingTest : public WindowTest {
   protected:
     static constexpr int kBallX = 826, kBallY = 470; // of the screen: near the picture's middle
 
-    // Of the panels only that of the objects is folded out. The scene is one ball in the picture's middle.
-    void startWithBall() {
+    // Of the panels only that of the objects is folded out.
+    void startWith(const fs::path& file) {
         nlohmann::json open;
         for (const char* panel : {"scene", "rendering", "camera", "view", "file", "statistics", "settings", "objects"})
             open[panel] = std::string(panel) == "objects";
         fs::create_directories(folder_ / "config" / "ray-tracing");
         store({{"open_panels", open}, {"saw_first_steps", true}, {"show_comparison", false}});
-        file_ = writeScene("ball.json", "Ball");
+        file_ = file;
         start({"--scene", file_.string(), "--width", "64", "--spp", "4"});
+    }
+    // The scene is one ball in the picture's middle.
+    void startWithBall() { startWith(writeScene("ball.json", "Ball")); }
+    // Three of them in a row.
+    void startWithThreeBalls() {
+        nlohmann::json scene = nlohmann::json::parse(std::ifstream(writeScene("balls.json", "Balls")));
+        nlohmann::json ball = scene["objects"][0];
+        ball["radius"] = 0.5;
+        scene["objects"].clear();
+        for (const double x : {-1.5, 0.0, 1.5}) {
+            ball["center"][0] = x;
+            scene["objects"].push_back(ball);
+        }
+        std::ofstream(folder_ / "balls.json") << scene;
+        startWith(folder_ / "balls.json");
+    }
+    // Pixels of the window for a unit of length at the balls, about: the picture is as high as the space for it, and 6
+    // units are seen of it.
+    static constexpr int kUnit = 133;
+    void save(const std::function<bool()>& isSaved) {
+        ASSERT_TRUE(clickText("Save*", kSidePlace, isSaved)) << log() << saved();
+    }
+    double centerOf(std::size_t object, int axis) const {
+        const nlohmann::json scene = saved();
+        const bool isThere = scene.is_object() && scene["objects"].size() > object;
+        return isThere ? scene["objects"][object]["center"][static_cast<std::size_t>(axis)].get<double>() : -99;
     }
     nlohmann::json saved() const {
         std::ifstream in(file_);
@@ -91,6 +117,74 @@ TEST_P(EditingTest, AnObjectIsMovedByKeysAndEditsAreNotLostInSilence) {
     EXPECT_EQ(ball["center"][1], 0);
     EXPECT_EQ(ball["center"][2], 0);
     EXPECT_EQ(ball["radius"], 1);
+}
+
+TEST_P(EditingTest, SeveralObjectsAreOneToToolsAndToUndo) {
+    startWithThreeBalls();
+    ASSERT_FALSE(HasFatalFailure());
+    ASSERT_TRUE(eventually(
+        [this] {
+            click(kBallX - 3 * kUnit / 2, kBallY);
+            pause(1500);
+            return isSelected("Sphere  /objects/0");
+        },
+        kSeen))
+        << log();
+    act("keydown ctrl");
+    click(kBallX + 3 * kUnit / 2, kBallY);
+    act("keyup ctrl");
+    ASSERT_TRUE(appears("Sphere  /objects/2", kSidePlace)) << log();
+    ASSERT_TRUE(appears("And 1 more", kSidePlace)) << log();
+    act("mousemove " + std::to_string(kBallX) + " 300 sleep 0.5");
+    key("g");
+    act("sleep 0.5 key y sleep 0.5 mousemove_relative 0 -60 sleep 0.5 mousemove_relative 0 -40 sleep 0.5 click 1");
+    ASSERT_TRUE(eventually([this] { return isMarkedUnsaved(); }, kSeen)) << title() << log();
+    save([this] { return centerOf(0, 1) > 0.1; });
+    EXPECT_GT(centerOf(0, 1), 0.3);
+    EXPECT_EQ(centerOf(0, 1), centerOf(2, 1));
+    EXPECT_EQ(centerOf(1, 1), 0);
+    key("Delete");
+    ASSERT_TRUE(eventually([this] { return isMarkedUnsaved(); }, kSeen)) << log();
+    save([this] { return saved().is_object() && saved()["objects"].size() == 1; });
+    EXPECT_EQ(centerOf(0, 0), 0);
+    key("ctrl+z");
+    key("ctrl+z"); // one step each
+    ASSERT_TRUE(eventually([this] { return isMarkedUnsaved(); }, kSeen)) << log();
+    save([this] { return saved().is_object() && saved()["objects"].size() == 3; });
+    for (const std::size_t i : {0u, 1u, 2u}) EXPECT_EQ(centerOf(i, 1), 0);
+    expectCleanEnd();
+}
+
+// By the arrow to the right; with Ctrl by whole steps; with Shift a copy. A drag beside it moves the camera alone.
+TEST_P(EditingTest, TheGizmoMovesSnapsAndDuplicates) {
+    startWithBall();
+    ASSERT_FALSE(HasFatalFailure());
+    ASSERT_TRUE(selectBall()) << log();
+    const std::string onArrow = "mousemove " + std::to_string(kBallX + 45) + " " + std::to_string(kBallY);
+    const std::string way = " sleep 0.5 mousemove_relative 40 2 sleep 0.5 mousemove_relative 60 3 sleep 0.8";
+    act(onArrow + " sleep 0.5 mousedown 1" + way + " key Escape sleep 0.5 mouseup 1"); // as if it had not been
+    act("mousemove 500 300 sleep 0.3 mousedown 1 sleep 0.3 mousemove_relative 2 60 sleep 0.3 mousemove_relative -- -2 "
+        "-60"
+        " sleep 0.3 mouseup 1 sleep 1"); // there and back
+    EXPECT_FALSE(isMarkedUnsaved());
+    act(onArrow + " sleep 0.5 mousedown 1 sleep 0.3 keydown ctrl" + way + " mouseup 1 keyup ctrl sleep 0.5");
+    ASSERT_TRUE(eventually([this] { return isMarkedUnsaved(); }, kSeen)) << title() << log();
+    save([this] { return centerOf(0, 0) > 0.1; });
+    EXPECT_TRUE(centerOf(0, 0) == 0.6 || centerOf(0, 0) == 0.8) << saved();
+    EXPECT_EQ(centerOf(0, 1), 0);
+    EXPECT_EQ(centerOf(0, 2), 0);
+    key("ctrl+z");
+    ASSERT_TRUE(eventually([this] { return isMarkedUnsaved(); }, kSeen)) << title() << log();
+    pause(1500); // until the gizmo is back
+    act(onArrow + " sleep 0.5 keydown shift mousedown 1" + way + " mouseup 1 keyup shift sleep 0.5");
+    save([this] { return saved().is_object() && saved()["objects"].size() == 2; });
+    EXPECT_EQ(centerOf(0, 0), 0);
+    EXPECT_GT(centerOf(1, 0), 0.3);
+    EXPECT_EQ(centerOf(1, 2), 0);
+    key("ctrl+z"); // the copy and its way are one step
+    ASSERT_TRUE(eventually([this] { return isMarkedUnsaved(); }, kSeen)) << title() << log();
+    save([this] { return saved().is_object() && saved()["objects"].size() == 1; });
+    expectCleanEnd();
 }
 
 } // namespace

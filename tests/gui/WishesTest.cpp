@@ -133,7 +133,7 @@ TEST_P(SharedWishesTest, PickingNothingSaysSo) {
     ASSERT_FALSE(HasFatalFailure());
     EXPECT_TRUE(eventually(
         [&] {
-            act("mousemove 400 450 sleep 0.2 keydown ctrl click 1 keyup ctrl");
+            act("mousemove 400 450 sleep 0.2 keydown ctrl keydown shift click 1 keyup shift keyup ctrl");
             pause(1000);
             return isShown("The picture is elsewhere: nothing was picked");
         },

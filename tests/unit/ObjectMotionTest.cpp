@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "Common/Scene/Edit/ObjectMotion.h"
+#include "Common/Scene/Edit/SameChange.h"
 #include "Common/Scene/Edit/SceneDocument.h"
 #include "tests/unit/CompilerScenes.h"
 
@@ -182,14 +183,58 @@ TEST(ObjectPath, LeavesAreCountedDepthFirst) {
     for (std::uint32_t leaf = 0; leaf < expected.size(); ++leaf) {
         const ObjectPath path = pathOfLeaf(scene, leaf);
         EXPECT_EQ(textOf(path), expected[leaf]);
-        EXPECT_EQ(leavesOf(scene, path).first, leaf);
-        EXPECT_EQ(leavesOf(scene, path).count, 1u);
+        const ObjectRange leaves = leavesOf(scene, std::vector<ObjectPath>{path}).front();
+        EXPECT_EQ(leaves.first, leaf);
+        EXPECT_EQ(leaves.count, 1u);
     }
     EXPECT_TRUE(pathOfLeaf(scene, 6).indices.empty());
-    EXPECT_EQ(leavesOf(scene, {"", {2}}).first, 1u);
-    EXPECT_EQ(leavesOf(scene, {"", {2}}).count, 4u);
-    EXPECT_EQ(leavesOf(scene, {"", {1}}).count, 0u);
-    EXPECT_EQ(leavesOf(scene, {"", {4}}).count, 0u);
+    const std::vector<ObjectPath> paths = {{"", {0}},    {"", {0, 3}}, {"", {1}}, {"", {2, 0}},
+                                           {"", {2, 1}}, {"", {3}},    {"", {4}}, {"pair", {0}}};
+    const std::vector<ObjectRange> ranges = leavesOf(scene, paths);
+    const std::vector<std::pair<std::uint32_t, std::uint32_t>> wanted = {{0, 1}, {1, 0}, {1, 0}, {1, 1},
+                                                                         {2, 2}, {5, 1}, {6, 0}, {6, 0}};
+    ASSERT_EQ(ranges.size(), wanted.size());
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        EXPECT_EQ(ranges[i].first, wanted[i].first) << textOf(paths[i]);
+        EXPECT_EQ(ranges[i].count, wanted[i].second) << textOf(paths[i]);
+    }
+    EXPECT_EQ(leavesOf(scene, std::vector<ObjectPath>{{"", {2}}}).front().count, 4u);
+}
+
+// Numbers that were changed, and no others.
+TEST(SameChange, IsThatOfOthersOfItsKind) {
+    SphereDesc before, after, other;
+    before.center = {1, 2, 3};
+    after = before;
+    after.center.y = 5;
+    after.radius = 2;
+    other.center = {7, 8, 9};
+    other.material = "glass";
+    ObjectDesc changed{other}, box{BoxDesc{}};
+    changeAlike({before}, {after}, changed);
+    other.center.y = 5;
+    other.radius = 2;
+    EXPECT_EQ(changed, ObjectDesc{other});
+    changeAlike({before}, {after}, box);
+    EXPECT_EQ(box, ObjectDesc{BoxDesc{}});
+    MediumDesc round, flat;
+    round.boundary = SphereBoundary{};
+    flat.boundary = BoxBoundary{};
+    MediumDesc dense = round;
+    dense.density = 4;
+    std::get<SphereBoundary>(dense.boundary).radius = 6;
+    ObjectDesc medium{flat};
+    changeAlike({round}, {dense}, medium);
+    flat.density = 4;
+    EXPECT_EQ(medium, ObjectDesc{flat}) << "it has no radius";
+    const Transform moved = {Translate{{1, 2, 3}}, Rotate{{0, 1, 0}, 30}};
+    Transform turned = moved, alike = {Translate{{4, 5, 6}}, Rotate{{1, 0, 0}, 0}}, unlike = {Scale{}, Rotate{}};
+    std::get<Rotate>(turned[1]).degrees = 45;
+    const Transform asBefore = unlike;
+    changeAlike(moved, turned, alike);
+    EXPECT_EQ(alike, (Transform{Translate{{4, 5, 6}}, Rotate{{1, 0, 0}, 45}}));
+    changeAlike(moved, turned, unlike);
+    EXPECT_EQ(unlike, asBefore);
 }
 
 } // namespace

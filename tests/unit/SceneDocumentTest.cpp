@@ -232,6 +232,36 @@ TEST(SceneDocument, StepsOfOneGestureAreOne) {
     }
 }
 
+// Copies, and what is then done to them.
+TEST(SceneDocument, TwoStepsCanBecomeOne) {
+    const SceneDesc first = variedScene();
+    SceneDocument document(first);
+    const std::vector<ObjectPath> paths = {at({0}), at({2}), at({7, 0})};
+    std::vector<ObjectPath> copies;
+    document.perform("Duplicate", duplicated(first, paths, copies));
+    EXPECT_EQ(copies, (std::vector<ObjectPath>{at({1}), at({4}), at({9, 1})}));
+    for (std::size_t i = 0; i < paths.size(); ++i)
+        EXPECT_EQ(*findObject(document.scene(), copies[i]), *findObject(first, paths[i])) << textOf(paths[i]);
+    std::vector<SceneEdit> moves;
+    for (const ObjectPath& copy : copies) moves.push_back(moved(document.scene(), copy, {Translate{{1, 0, 0}}}));
+    document.perform("Move", moves);
+    const SceneDesc last = document.scene();
+    document.joinSteps("Duplicate");
+    EXPECT_EQ(document.stepCount(), 1u);
+    EXPECT_EQ(document.stepName(0), "Duplicate");
+    EXPECT_TRUE(document.isDirty());
+    document.undo();
+    EXPECT_EQ(document.scene(), first);
+    EXPECT_FALSE(document.isDirty());
+    document.redo();
+    EXPECT_EQ(document.scene(), last);
+    document.markSaved();
+    document.perform("Delete", removed(copies));
+    document.joinSteps("Both");
+    EXPECT_EQ(document.stepCount(), 2u) << "a saved state stays one that undo comes by";
+    EXPECT_EQ(document.scene(), first);
+}
+
 TEST(SceneDocument, IsCleanWhereItWasSaved) {
     SceneDocument document(variedScene());
     EXPECT_FALSE(document.isDirty());

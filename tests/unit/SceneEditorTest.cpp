@@ -93,7 +93,7 @@ TEST_F(SceneEditorTest, ADragEndsWhereThePointerDoes) {
     const std::uint64_t gesture = editor_->newGesture();
     for (int i = 1; i <= 200; ++i) {
         const auto edit = [i](const scene::SceneDesc& scene) {
-            return moved(scene, {"", {0}}, {scene::Translate{{0.01 * i, 0, 0}}});
+            return std::vector{moved(scene, {"", {0}}, {scene::Translate{{0.01 * i, 0, 0}}})};
         };
         editor_->performAnew("Move", edit, gesture);
         if (i % 20 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -140,16 +140,36 @@ TEST_F(SceneEditorTest, WhatIsRefusedChangesNothing) {
 TEST_F(SceneEditorTest, BoundsAreThoseOfThePicture) {
     ASSERT_TRUE(begin());
     editor_->select(scene::ObjectPath{"", {1}});
-    const auto bounds = editor_->selectionBounds(session_->state());
-    ASSERT_TRUE(bounds);
-    EXPECT_NEAR(bounds->lower.x, 1.5, 1e-6);
-    EXPECT_NEAR(bounds->upper.y, 1.5, 1e-6); // where it is at time 1
+    const scene::Bounds bounds = editor_->outline(session_->state()).all;
+    EXPECT_NEAR(bounds.lower.x, 1.5, 1e-6);
+    EXPECT_NEAR(bounds.upper.y, 1.5, 1e-6); // where it is at time 1
+    editor_->toggle({"", {0}});
+    const SelectionOutline both = editor_->outline(session_->state());
+    ASSERT_EQ(both.boxes.size(), 2u);
+    EXPECT_NEAR(both.boxes[0].lower.x, -1, 1e-6);
+    EXPECT_NEAR(both.all.lower.x, -1, 1e-6);
+    EXPECT_EQ(both.all.upper.y, both.boxes[1].upper.y);
+    editor_->toggle({"", {0}});
     editor_->perform("Delete", {scene::PlaceObject{{"", {0}}, {}}});
-    editor_->select(scene::ObjectPath{"", {0}});
-    ASSERT_TRUE(follows([this](const SessionState& state) { return editor_->isInStep(state); }));
-    const auto others = editor_->selectionBounds(session_->state());
-    ASSERT_TRUE(others);
-    EXPECT_NEAR(others->lower.x, 1.5, 1e-6) << "the second object is the first one now";
+    EXPECT_EQ(editor_->selection(), (scene::ObjectPath{"", {0}})) << "the second object is the first one now";
+    EXPECT_TRUE(editor_->outline(session_->state()).boxes.empty()) << "the picture's objects are others";
+    ASSERT_TRUE(follows([this](const SessionState& state) { return editor_->isUpToDate(state); }));
+    EXPECT_NEAR(editor_->outline(session_->state()).all.lower.x, 1.5, 1e-6);
+}
+
+// Media and lights have no surfaces: they are where they are described to be.
+TEST_F(SceneEditorTest, WhatHasNoSurfaceIsOutlinedToo) {
+    ASSERT_TRUE(begin());
+    scene::MediumDesc medium;
+    medium.boundary = scene::SphereBoundary{{0, 3, 0}, 0.5};
+    editor_->perform("Add", {scene::PlaceObject{{"", {2}}, scene::ObjectDesc{medium}},
+                             scene::PlaceObject{{"", {3}}, scene::ObjectDesc{scene::PointLightDesc{{1, 7, 1}}}}});
+    editor_->select({{"", {2}}, {"", {3}}}, {"", {3}});
+    const SelectionOutline outline = editor_->outline(session_->state());
+    ASSERT_EQ(outline.boxes.size(), 1u);
+    EXPECT_EQ(outline.boxes[0].lower, glm::dvec3(-0.5, 2.5, -0.5));
+    EXPECT_EQ(outline.lights, std::vector<glm::dvec3>(1, glm::dvec3(1, 7, 1)));
+    EXPECT_EQ(outline.all.upper, glm::dvec3(1, 7, 1));
 }
 
 TEST_F(SceneEditorTest, SavedFilesHoldWhatIsSeen) {

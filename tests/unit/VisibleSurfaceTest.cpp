@@ -86,7 +86,7 @@ TEST(VisibleSurface, IsThatOfAnObject) {
     EXPECT_EQ(objectAt(2, 3), 99u);
     const auto expectBounds = [&](std::uint32_t first, std::uint32_t count, const glm::dvec3& low,
                                   const glm::dvec3& high) {
-        const Bounds bounds = boundsOfObjects(*compiled, first, count);
+        const Bounds bounds = boundsOf(*compiled, std::vector<ObjectRange>{{first, count}}).front();
         expectNear(bounds.lower, low, 1e-5);
         expectNear(bounds.upper, high, 1e-5);
     };
@@ -95,7 +95,17 @@ TEST(VisibleSurface, IsThatOfAnObject) {
     expectBounds(4, 1, at(-1.5, 0.5), at(-0.5, 1.5));
     expectBounds(6, 1, at(3, -1) - glm::dvec3(0.5, 1, 0.5), at(3, -1) + glm::dvec3(0.5, 1, 0.5));
     expectBounds(3, 3, {-3.5, 0.5, -4.5}, {1.25, 1.5, -3.5});
-    EXPECT_TRUE(boundsOfObjects(*compiled, 2, 1).empty()); // a light without extent
+    const std::vector<ObjectRange> ranges = {{0, 1}, {2, 1}, {3, 0}, {3, 1}, {5, 2}};
+    const std::vector<Bounds> bounds = boundsOf(*compiled, ranges); // each as if it were asked for alone
+    ASSERT_EQ(bounds.size(), ranges.size());
+    EXPECT_TRUE(bounds[1].empty()) << "a light without extent";
+    EXPECT_TRUE(bounds[2].empty()) << "none";
+    for (const std::size_t i : {0u, 3u, 4u}) {
+        const Bounds alone = boundsOf(*compiled, std::vector<ObjectRange>{ranges[i]}).front();
+        EXPECT_FALSE(alone.empty());
+        EXPECT_EQ(bounds[i].lower, alone.lower);
+        EXPECT_EQ(bounds[i].upper, alone.upper);
+    }
 }
 
 TEST(VisibleSurface, TooMuchIsNotLookedThrough) {

@@ -113,6 +113,8 @@ void forEachToggle(const Visit& visit, Settings& settings) {
     visit("saw_first_steps", settings.sawFirstSteps);
     visit("ray_tracing", settings.rayTracing);
     visit("denoise", settings.denoise);
+    visit("show_gizmo", settings.showGizmo);
+    visit("local_axes", settings.localAxes);
 }
 
 } // namespace
@@ -132,6 +134,7 @@ GuiSettings parseGuiSettings(std::string_view text) {
     const Reader reader(json);
     reader.read("color_mode", kColorModes, settings.colorMode);
     reader.read("save_choice", kSaveChoices, settings.saveChoice);
+    reader.read("gizmo", kGizmos, settings.gizmo);
     reader.read("ui_scale", settings.uiScale, kMinUiScale, kMaxUiScale);
     reader.read("font", settings.font);
     forEachToggle([&reader](const char* key, bool& value) { reader.read(key, value); }, settings);
@@ -168,6 +171,7 @@ std::string toText(const GuiSettings& s) {
     Json json{{"version", kSettingsVersion},
               {"color_mode", nameOf(kColorModes, s.colorMode)},
               {"save_choice", nameOf(kSaveChoices, s.saveChoice)},
+              {"gizmo", nameOf(kGizmos, s.gizmo)},
               {"ui_scale", s.uiScale},
               {"font", s.font},
               {"window_x", s.windowX},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "Common/App/Interactive/InteractiveSession.h"
+#include "Common/App/Interactive/ObjectTool.h"
 #include "Common/App/Options/Options.h"
 #include "Common/Render/Names.h"
 
@@ -23,6 +24,12 @@ inline constexpr Named<SaveChoice> kSaveChoices[] = {
     {"raw", SaveChoice::Raw, "Raw picture", "The mean of the samples"},
     {"denoised", SaveChoice::Denoised, "Denoised picture", "Filtered once more for the file"},
     {"both", SaveChoice::Both, "Both", "The denoised one beside the raw one, as NAME.denoised.png"}};
+
+// Of the gizmo: what its handles do.
+inline constexpr Named<ObjectTool::Kind> kGizmos[] = {
+    {"move", ObjectTool::Kind::Move, "Move", "Arrows and squares, by which the pointer moves what is selected"},
+    {"turn", ObjectTool::Kind::Turn, "Turn", "Rings, by which the pointer turns what is selected"},
+    {"scale", ObjectTool::Kind::Scale, "Scale", "Arms with boxes, by which the pointer scales what is selected"}};
 
 inline constexpr float kMinUiScale = 0.75f;
 inline constexpr float kMaxUiScale = 3.0f;
@@ -54,6 +61,9 @@ struct GuiSettings {
     EngineChoice engine;
     bool denoise = true; // pictures with less noise, while they converge and after
     SaveChoice saveChoice = SaveChoice::Seen;
+    bool showGizmo = true; // over the picture, on what is selected
+    ObjectTool::Kind gizmo = ObjectTool::Kind::Move;
+    bool localAxes = false; // of the gizmo and of keys: the object's own, not the scene's
     bool operator==(const GuiSettings&) const = default;
 
     void addRecent(const std::string& file);

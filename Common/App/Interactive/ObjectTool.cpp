@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "Common/Scene/Edit/ObjectMotion.h"
@@ -13,21 +14,13 @@ namespace {
 
 constexpr double kMinScale = 1e-3;
 constexpr double kTooSmall = 1e-9; // to divide by
+constexpr double kTurnStep = 15;   // degrees
+constexpr double kScaleSteps = 10; // of 1
+constexpr double kStepShare = 25;  // steps of a move, at least, in the height of the picture
+constexpr double kFlatRing = 0.25; // cosine between its axis and the sight, below which it is seen as a line
 
-glm::dvec3 unit(int axis) {
-    glm::dvec3 vector(0);
-    vector[axis] = 1;
-    return vector;
-}
-
-// How far along the axis through a point the line of sight passes it, where they are not parallel.
-std::optional<double> alongAxis(const ViewProjection& view, const glm::dvec3& point, const glm::dvec3& axis,
-                                const glm::dvec2& place) {
-    const glm::dvec3 sight = glm::normalize(view.direction(place)), between = point - view.eye();
-    const double cosine = glm::dot(axis, sight), sine2 = 1 - cosine * cosine;
-    if (!(sine2 > 1e-6)) return std::nullopt;
-    return (cosine * glm::dot(between, sight) - glm::dot(between, axis)) / sine2;
-}
+constexpr const char* kAxisNames[] = {"X", "Y", "Z"};
+constexpr const char* kPlaneNames[] = {"Y and Z", "X and Z", "X and Y"}; // across each axis
 
 // From the pivot's place to another one, in heights of the picture.
 std::optional<glm::dvec2> arm(const ViewProjection& view, const glm::dvec3& pivot, const glm::dvec2& place) {
@@ -37,69 +30,159 @@ std::optional<glm::dvec2> arm(const ViewProjection& view, const glm::dvec3& pivo
     return glm::dvec2(offset.x * view.aspect(), offset.y);
 }
 
+// Fractions of 1 as the decimal number that they are.
+double rounded(double value, double step) {
+    const double count = std::round(value / step);
+    return step < 1 ? count / std::round(1 / step) : count * step;
+}
+
+std::string numbers(const glm::dvec3& v) {
+    char text[96];
+    std::snprintf(text, sizeof text, ": %.4g, %.4g, %.4g", v.x, v.y, v.z);
+    return text;
+}
+
+std::string number(const char* format, double value) {
+    char text[48];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
 } // namespace
 
-std::optional<scene::Transform> ObjectTool::steps(const ViewProjection& view, const glm::dvec2& place) const {
-    if (place == start_) return std::nullopt;
+std::optional<double> alongAxis(const ViewProjection& view, const glm::dvec3& point, const glm::dvec3& axis,
+                                const glm::dvec2& place) {
+    const glm::dvec3 sight = glm::normalize(view.direction(place)), between = point - view.eye();
+    const double cosine = glm::dot(axis, sight), sine2 = 1 - cosine * cosine;
+    if (!(sine2 > 1e-6)) return std::nullopt;
+    return (cosine * glm::dot(between, sight) - glm::dot(between, axis)) / sine2;
+}
+
+std::optional<glm::dvec3> inPlane(const ViewProjection& view, const glm::dvec3& point, const glm::dvec3& normal,
+                                  const glm::dvec2& place) {
+    const glm::dvec3 sight = glm::normalize(view.direction(place));
+    const double cosine = glm::dot(sight, normal), distance = glm::dot(point - view.eye(), normal) / cosine;
+    if (!(std::abs(cosine) > 1e-3 && distance > 0)) return std::nullopt;
+    return view.eye() + distance * sight;
+}
+
+void ObjectTool::constrain(int axis) {
+    const Constraint wanted{axis, false};
+    constraint_ = constraint_ == wanted ? std::nullopt : std::optional(wanted);
+}
+
+double ObjectTool::moveStep(const ViewProjection& view) const {
+    const double most = view.heightAt(axes_.pivot) / kStepShare;
+    const double power = std::pow(10, std::floor(std::log10(most)));
+    for (const double factor : {5.0, 2.0})
+        if (factor * power <= most) return factor * power;
+    return power;
+}
+
+std::optional<ObjectTool::Motion> ObjectTool::motion(const ViewProjection& view, const glm::dvec2& place,
+                                                     bool isSnapped) const {
+    if (place == start_ || !view.place(axes_.pivot)) return std::nullopt;
     switch (kind_) {
         case Kind::Move:
-            return move(view, place);
+            return move(view, place, isSnapped);
         case Kind::Turn:
-            return turn(view, place);
+            return turn(view, place, isSnapped);
         case Kind::Scale:
             break;
     }
-    return scale(view, place);
+    return scale(view, place, isSnapped);
 }
 
-std::optional<scene::Transform> ObjectTool::move(const ViewProjection& view, const glm::dvec2& place) const {
-    if (!view.place(pivot_)) return std::nullopt;
-    if (!axis_) {
-        const glm::dvec3 offset = view.inPlaneOf(pivot_, place) - view.inPlaneOf(pivot_, start_);
-        return scene::Transform{scene::Translate{offset}};
+// "Move along X"
+std::string ObjectTool::textOf(const char* verb, const char* preposition) const {
+    if (!constraint_) return verb;
+    const auto& names = constraint_->isPlane ? kPlaneNames : kAxisNames;
+    return std::string(verb) + ' ' + preposition + ' ' + names[constraint_->axis];
+}
+
+std::optional<ObjectTool::Motion> ObjectTool::move(const ViewProjection& view, const glm::dvec2& place,
+                                                   bool isSnapped) const {
+    const bool isLine = constraint_ && !constraint_->isPlane;
+    glm::dvec3 way(0); // along the axes
+    if (!constraint_) {
+        const glm::dvec3 offset = view.inPlaneOf(axes_.pivot, place) - view.inPlaneOf(axes_.pivot, start_);
+        way = glm::transpose(axes_.directions) * offset;
+    } else if (isLine) {
+        const glm::dvec3& axis = axes_.directions[constraint_->axis];
+        const auto from = alongAxis(view, axes_.pivot, axis, start_), to = alongAxis(view, axes_.pivot, axis, place);
+        if (!from || !to) return std::nullopt;
+        way[constraint_->axis] = *to - *from;
+    } else {
+        const glm::dvec3& normal = axes_.directions[constraint_->axis];
+        const auto from = inPlane(view, axes_.pivot, normal, start_), to = inPlane(view, axes_.pivot, normal, place);
+        if (!from || !to) return std::nullopt;
+        way = glm::transpose(axes_.directions) * (*to - *from);
+        way[constraint_->axis] = 0;
     }
-    const auto from = alongAxis(view, pivot_, unit(*axis_), start_), to = alongAxis(view, pivot_, unit(*axis_), place);
-    if (!from || !to) return std::nullopt;
-    return scene::Transform{scene::Translate{(*to - *from) * unit(*axis_)}};
+    const double step = moveStep(view);
+    for (int i = 0; i < 3 && isSnapped; ++i) way[i] = rounded(way[i], step);
+    std::string text = textOf("Move", "along");
+    text += isLine ? number(": %.4g", way[constraint_->axis]) : numbers(way);
+    if (isSnapped) text += number(" by steps of %.4g", step);
+    return Motion{{scene::Translate{axes_.directions * way}}, std::move(text)};
 }
 
-// By the angle that the pointer goes through about the pivot, as seen.
-std::optional<scene::Transform> ObjectTool::turn(const ViewProjection& view, const glm::dvec2& place) const {
-    const auto from = arm(view, pivot_, start_), to = arm(view, pivot_, place);
+// By the angle that the pointer goes through about the pivot, as seen: counter-clockwise is positive, and the picture's
+// second axis points down.
+std::optional<double> ObjectTool::turnedBy(const ViewProjection& view, const glm::dvec2& place) const {
+    const auto from = arm(view, axes_.pivot, start_), to = arm(view, axes_.pivot, place);
     if (!from || !to || !(glm::length(*from) > kTooSmall && glm::length(*to) > kTooSmall)) return std::nullopt;
-    // Counter-clockwise as seen; the picture's second axis points down.
-    const double angle = std::atan2(from->y * to->x - from->x * to->y, glm::dot(*from, *to));
-    const glm::dvec3 towardsEye = -view.forward();
-    const glm::dvec3 axis = axis_ ? unit(*axis_) : towardsEye;
-    const double sense = glm::dot(axis, view.eye() - pivot_) < 0 ? -1 : 1; // of an axis that points away
-    return scene::turned(pivot_, axis, sense * glm::degrees(angle));
+    return std::atan2(from->y * to->x - from->x * to->y, glm::dot(*from, *to));
 }
 
-std::optional<scene::Transform> ObjectTool::scale(const ViewProjection& view, const glm::dvec2& place) const {
-    const auto from = arm(view, pivot_, start_), to = arm(view, pivot_, place);
-    if (!from || !to || !(glm::length(*from) > kTooSmall)) return std::nullopt;
-    const double factor = std::fmax(kMinScale, glm::length(*to) / glm::length(*from));
+// In the ring's plane; where that is seen from its edge, by the way along the edge.
+std::optional<double> ObjectTool::ringAngle(const ViewProjection& view, const glm::dvec2& place) const {
+    const glm::dvec3 axis = axes_.directions[constraint_->axis], toEye = glm::normalize(view.eye() - axes_.pivot);
+    if (std::abs(glm::dot(axis, toEye)) < kFlatRing) {
+        const glm::dvec3 edge = glm::normalize(glm::cross(axis, toEye));
+        const glm::dvec3 way = view.inPlaneOf(axes_.pivot, place) - view.inPlaneOf(axes_.pivot, start_);
+        return glm::dot(way, edge) / reach_;
+    }
+    const auto from = inPlane(view, axes_.pivot, axis, start_), to = inPlane(view, axes_.pivot, axis, place);
+    if (!from || !to) return std::nullopt;
+    const glm::dvec3 a = *from - axes_.pivot, b = *to - axes_.pivot;
+    if (!(glm::length(a) > kTooSmall * reach_ && glm::length(b) > kTooSmall * reach_)) return std::nullopt;
+    return std::atan2(glm::dot(axis, glm::cross(a, b)), glm::dot(a, b));
+}
+
+std::optional<ObjectTool::Motion> ObjectTool::turn(const ViewProjection& view, const glm::dvec2& place,
+                                                   bool isSnapped) const {
+    const glm::dvec3 axis = constraint_ ? axes_.directions[constraint_->axis] : -view.forward();
+    const bool isRing = constraint_ && reach_ > 0;
+    const auto angle = isRing ? ringAngle(view, place) : turnedBy(view, place);
+    if (!angle) return std::nullopt;
+    const bool pointsAway = !isRing && glm::dot(axis, view.eye() - axes_.pivot) < 0;
+    double degrees = (pointsAway ? -1 : 1) * glm::degrees(*angle);
+    if (isSnapped) degrees = rounded(degrees, kTurnStep);
+    return Motion{scene::turned(axes_.pivot, axis, degrees),
+                  textOf("Turn", "about") + number(": %.1f degrees", degrees)};
+}
+
+std::optional<ObjectTool::Motion> ObjectTool::scale(const ViewProjection& view, const glm::dvec2& place,
+                                                    bool isSnapped) const {
+    const bool isArm = reach_ > 0 && constraint_ && !constraint_->isPlane;
+    double factor = 1;
+    if (isArm) { // whose end stays under the pointer
+        const glm::dvec3& axis = axes_.directions[constraint_->axis];
+        const auto from = alongAxis(view, axes_.pivot, axis, start_), to = alongAxis(view, axes_.pivot, axis, place);
+        if (!from || !to || !(std::abs(*from) > kTooSmall * reach_)) return std::nullopt;
+        factor = *to / *from;
+    } else {
+        const auto from = arm(view, axes_.pivot, start_), to = arm(view, axes_.pivot, place);
+        if (!from || !to || !(glm::length(*from) > kTooSmall)) return std::nullopt;
+        factor = glm::length(*to) / glm::length(*from);
+    }
+    factor = std::fmax(kMinScale, factor);
+    if (isSnapped) factor = std::fmax(1, std::round(kScaleSteps * factor)) / kScaleSteps;
     glm::dvec3 factors(factor);
-    if (axis_) factors = glm::dvec3(1) + (factor - 1) * unit(*axis_);
-    return scene::scaled(pivot_, factors);
-}
-
-std::string ObjectTool::text(const scene::Transform& steps) const {
-    constexpr const char* kAxes[] = {"X", "Y", "Z"};
-    const std::string axis = axis_ ? kAxes[*axis_] : "";
-    char text[96];
-    if (kind_ == Kind::Move) {
-        const glm::dvec3 o = std::get<scene::Translate>(steps.front()).offset;
-        std::snprintf(text, sizeof text, ": %.4g, %.4g, %.4g", o.x, o.y, o.z);
-        return (axis_ ? "Move along " + axis : "Move") + text;
-    }
-    if (kind_ == Kind::Turn) {
-        std::snprintf(text, sizeof text, ": %.1f degrees", std::get<scene::Rotate>(steps[1]).degrees);
-        return (axis_ ? "Turn about " + axis : "Turn") + text;
-    }
-    const glm::dvec3 f = std::get<scene::Scale>(steps[1]).factors;
-    std::snprintf(text, sizeof text, ": %.4g, %.4g, %.4g", f.x, f.y, f.z);
-    return (axis_ ? "Scale along " + axis : "Scale") + text;
+    for (int i = 0; i < 3 && constraint_; ++i)
+        if ((i == constraint_->axis) == constraint_->isPlane) factors[i] = 1;
+    return Motion{scene::scaled(axes_.pivot, factors, axes_.directions), textOf("Scale", "along") + numbers(factors)};
 }
 
 } // namespace rt::app

@@ -7,6 +7,7 @@
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Scene/Edit/ObjectMotion.h"
 #include "Common/Scene/Json/SceneJson.h"
 
 namespace rt::app {
@@ -27,8 +28,9 @@ void SceneEditor::end() {
     if (document_) session_.stopEditing();
     if (callOff_) *callOff_ = true;
     document_.reset();
-    selection_.reset();
-    measured_ = {};
+    selected_.set(std::nullopt);
+    journal_.clear();
+    outlined_ = {};
     reading_ = {};
 }
 
@@ -68,11 +70,19 @@ void SceneEditor::begin() {
     reading_ = std::async(std::launch::async, read);
 }
 
+// What it tells leads the selection along, in the order in which it was done.
+void SceneEditor::followJournal() {
+    for (scene::SceneEdit& edit : document_->takeJournal()) {
+        selected_.follow(edit);
+        journal_.push_back(std::move(edit));
+    }
+}
+
 void SceneEditor::send(bool isGesture) {
-    if (selection_ && findObject(document_->scene(), *selection_) == nullptr) selection_.reset();
-    std::vector<scene::SceneEdit> edits = document_->takeJournal();
-    if (edits.empty()) return;
-    edits_ = session_.edit(std::move(edits), isGesture);
+    followJournal();
+    if (journal_.empty()) return;
+    selected_.keepExisting(document_->scene());
+    edits_ = session_.edit(std::exchange(journal_, {}), isGesture);
     if (std::exchange(sentStructure_, document_->structure()) != document_->structure()) structureEdits_ = edits_;
 }
 
@@ -81,10 +91,11 @@ void SceneEditor::perform(std::string name, std::vector<scene::SceneEdit> edits,
     send(gesture != 0);
 }
 
-void SceneEditor::performAnew(std::string name, const MakeEdit& make, std::uint64_t gesture) {
+void SceneEditor::performAnew(std::string name, const MakeEdits& make, std::uint64_t gesture) {
     document_->giveUp(gesture);
+    followJournal();
     try {
-        document_->perform(std::move(name), {make(document_->scene())}, gesture);
+        document_->perform(std::move(name), make(document_->scene()), gesture);
     } catch (...) {
         send(true);
         throw;
@@ -95,6 +106,10 @@ void SceneEditor::performAnew(std::string name, const MakeEdit& make, std::uint6
 void SceneEditor::giveUp(std::uint64_t gesture) {
     document_->giveUp(gesture);
     send(false);
+}
+
+void SceneEditor::joinSteps(std::string name) {
+    document_->joinSteps(std::move(name));
 }
 
 void SceneEditor::undo() {
@@ -123,18 +138,34 @@ bool SceneEditor::isInStep(const SessionState& state) const {
 
 void SceneEditor::select(std::optional<scene::ObjectPath> path) {
     if (path && findObject(document_->scene(), *path) == nullptr) path.reset();
-    selection_ = std::move(path);
+    selected_.set(std::move(path));
 }
 
-std::optional<scene::Bounds> SceneEditor::selectionBounds(const SessionState& state) {
-    if (!selection_ || !isInStep(state)) return std::nullopt;
-    if (measured_.scene != state.scene || measured_.path != *selection_) {
-        measured_ = {state.scene, *selection_, std::nullopt};
-        const scene::LeafRange leaves = leavesOf(document_->scene(), *selection_);
-        const scene::Bounds bounds = boundsOfObjects(*state.scene, leaves.first, leaves.count);
-        if (!bounds.empty()) measured_.bounds = bounds;
+void SceneEditor::select(std::vector<scene::ObjectPath> paths, const scene::ObjectPath& active) {
+    selected_.set(std::move(paths), active);
+    selected_.keepExisting(document_->scene());
+}
+
+void SceneEditor::toggle(const scene::ObjectPath& path) {
+    if (findObject(document_->scene(), path) != nullptr) selected_.toggle(path);
+}
+
+const SelectionOutline& SceneEditor::outline(const SessionState& state) {
+    const bool isNamed = isInStep(state);
+    const Outlined wanted{isNamed ? state.scene : nullptr, selected_.serial(), document_ ? document_->revision() : 0};
+    if (wanted == outlined_) return outline_;
+    outlined_ = wanted;
+    outline_ = {};
+    if (!document_) return outline_;
+    if (isNamed) outline_.boxes = boundsOf(*state.scene, leavesOf(document_->scene(), selected_.paths()));
+    for (const scene::ObjectPath& path : selected_.paths()) {
+        if (const auto light = lightPosition(document_->scene(), path)) outline_.lights.push_back(*light);
+        outline_.boxes.push_back(mediumBounds(document_->scene(), path));
     }
-    return measured_.bounds;
+    std::erase_if(outline_.boxes, [](const scene::Bounds& box) { return box.empty(); });
+    for (const scene::Bounds& box : outline_.boxes) outline_.all.add(box, {});
+    for (const glm::dvec3& light : outline_.lights) outline_.all.add(light);
+    return outline_;
 }
 
 } // namespace rt::app

@@ -12,10 +12,18 @@
 #include <vector>
 
 #include "Common/App/Interactive/InteractiveSession.h"
+#include "Common/App/Interactive/ObjectSelection.h"
 #include "Common/Scene/Edit/SceneDocument.h"
 #include "Common/Scene/Moment.h"
 
 namespace rt::app {
+
+// What is selected, as it is marked in the picture.
+struct SelectionOutline {
+    std::vector<scene::Bounds> boxes; // of each object that has an extent in the picture's scene
+    std::vector<glm::dvec3> lights;   // where those without extent stand
+    scene::Bounds all;                // of both
+};
 
 class SceneEditor {
   public:
@@ -37,10 +45,11 @@ class SceneEditor {
     const scene::SceneDocument* document() const { return document_ ? &*document_ : nullptr; }
     // As SceneDocument::perform(), throwing what that does. Requires a document, as do those that follow.
     void perform(std::string name, std::vector<scene::SceneEdit> edits, std::uint64_t gesture = 0);
-    // In place of what the gesture has done so far: an edit of the scene as it was before that.
-    using MakeEdit = std::function<scene::SceneEdit(const scene::SceneDesc&)>;
-    void performAnew(std::string name, const MakeEdit& make, std::uint64_t gesture);
+    // In place of what the gesture has done so far: edits of the scene as it was before that.
+    using MakeEdits = std::function<std::vector<scene::SceneEdit>(const scene::SceneDesc&)>;
+    void performAnew(std::string name, const MakeEdits& make, std::uint64_t gesture);
     void giveUp(std::uint64_t gesture);
+    void joinSteps(std::string name); // as SceneDocument has it
     void undo();
     void redo();
     std::uint64_t newGesture() { return ++gestures_; }
@@ -55,13 +64,19 @@ class SceneEditor {
 
     // Whether the picture shows the objects that the description has, in that order: then what is seen can be named.
     bool isInStep(const SessionState& state) const;
-    const std::optional<scene::ObjectPath>& selection() const { return selection_; } // that exists
+    // Whether the picture's scene has all edits.
+    bool isUpToDate(const SessionState& state) const { return document_ && state.scene && state.sceneEdits >= edits_; }
+    // Objects that exist. They stay selected wherever edits lead them.
+    const ObjectSelection& selected() const { return selected_; }
+    const std::optional<scene::ObjectPath>& selection() const { return selected_.active(); } // the latest of them
     void select(std::optional<scene::ObjectPath> path);
-    // Of what is selected, in the picture's scene; nothing where it has no extent or is not there yet.
-    std::optional<scene::Bounds> selectionBounds(const SessionState& state);
+    void select(std::vector<scene::ObjectPath> paths, const scene::ObjectPath& active);
+    void toggle(const scene::ObjectPath& path); // as ObjectSelection has it
+    const SelectionOutline& outline(const SessionState& state);
 
   private:
     using Read = std::pair<scene::SceneDesc, scene::SceneDesc>; // for the window, for the session
+    void followJournal();
     void send(bool isGesture);
     void end();
 
@@ -71,7 +86,7 @@ class SceneEditor {
     scene::Moment moment_;         // that it is posed at
     std::uint64_t sceneReads_ = 0; // that this has followed
     std::optional<scene::SceneDocument> document_;
-    std::optional<scene::ObjectPath> selection_;
+    ObjectSelection selected_;
     std::uint64_t gestures_ = 0;
     std::uint64_t edits_ = 0;                    // that the session has been sent
     std::uint64_t structureEdits_ = 0;           // of those, the last one that changed which objects there are
@@ -81,11 +96,13 @@ class SceneEditor {
     std::future<std::string> saving_;
     std::optional<std::string> saved_;
     std::optional<FileFingerprint> savedMark_;
-    struct Measured { // whose bounds are known
+    std::vector<scene::SceneEdit> journal_; // that the selection has followed and the session has not been sent
+    struct Outlined {                       // of what outline_ is
         std::shared_ptr<const scene::CompiledScene> scene;
-        scene::ObjectPath path;
-        std::optional<scene::Bounds> bounds;
-    } measured_;
+        std::uint64_t selection = 0, revision = 0;
+        bool operator==(const Outlined&) const = default;
+    } outlined_;
+    SelectionOutline outline_;
 };
 
 } // namespace rt::app

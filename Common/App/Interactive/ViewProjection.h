@@ -24,6 +24,9 @@ class ViewProjection {
     // What is seen there in the plane across the view that goes through a point.
     glm::dvec3 inPlaneOf(const glm::dvec3& point, const glm::dvec2& place) const;
 
+    // Of the picture, as far away as a point is.
+    double heightAt(const glm::dvec3& point) const { return 2 * halfHeight_ * depth(point); }
+
     const glm::dvec3& eye() const { return eye_; }
     const glm::dvec3& forward() const { return forward_; }
     double aspect() const { return halfWidth_ / halfHeight_; }

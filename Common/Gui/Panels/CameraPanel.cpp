@@ -70,8 +70,8 @@ void drawCameraPanel(Gui& gui) {
     }
     ImGui::SameLine();
     if (button(gui.pickFocus ? "Click in the picture" : "Pick focus",
-               "The next click in the picture makes sharp what is there; so does Ctrl + click at any time", true,
-               half)) {
+               "The next click in the picture makes sharp what is there; so does Ctrl + Shift + click at any time",
+               true, half)) {
         gui.pickFocus = !gui.pickFocus;
     }
     bool moved = editVector("Position", "Where the camera is", camera.lookFrom);

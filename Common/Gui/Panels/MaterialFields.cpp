@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "Common/Gui/Panels/ObjectFields.h"
 #include "Common/Gui/Widgets.h"
@@ -100,13 +101,13 @@ bool drawKind(scene::MaterialDesc& material) {
     return changed;
 }
 
-void drawName(Gui& gui, const scene::ObjectPath& path, const std::string& current) {
-    row("Material", "That of all surfaces which name it");
+void drawName(Gui& gui, const std::string& current) {
+    row("Material", "That of all surfaces which name it; another one is for all that is selected");
     if (!ImGui::BeginCombo("##name", current.empty() ? "its own" : current.c_str())) return;
     for (const auto& [name, material] : gui.editor.document()->scene().materials) {
         const bool isSelected = name == current;
         if (!ImGui::Selectable(name.c_str(), isSelected) || isSelected) continue;
-        editScene(gui, "Assign material", {scene::SetMaterialOf{path, name}}, false);
+        assignMaterial(gui, name);
         break; // the names may be others by now
     }
     ImGui::EndCombo();
@@ -129,16 +130,23 @@ std::size_t usesOf(Gui& gui, const std::string& name) {
     return editing.materialUses;
 }
 
-void drawUnique(Gui& gui, const scene::ObjectPath& path, const std::string& name) {
+// For what is selected and has that material.
+void drawUnique(Gui& gui, const std::string& name) {
     const std::size_t uses = usesOf(gui, name);
     if (uses > 1) note("Shared by " + std::to_string(uses) + " objects, which change with it");
-    if (!button("Make unique", "Gives this object a material of its own, like the one it has",
-                {uses > 1, "no other object has this material"}))
-        return;
     const scene::SceneDesc& scene = gui.editor.document()->scene();
+    std::vector<scene::ObjectPath> paths = gui.editor.selected().paths();
+    std::erase_if(paths, [&](const scene::ObjectPath& path) {
+        const std::string* own = materialNameOf(*findObject(scene, path));
+        return own == nullptr || *own != name;
+    });
+    if (!button("Make unique", "Gives what is selected a material of its own, like the one it has",
+                {uses > paths.size(), "no other object has this material"}))
+        return;
     const std::string own = newName(scene, name);
-    editScene(gui, "Make unique", {scene::SetMaterial{own, scene.materials.at(name)}, scene::SetMaterialOf{path, own}},
-              false);
+    std::vector<scene::SceneEdit> edits{scene::SetMaterial{own, scene.materials.at(name)}};
+    for (const scene::ObjectPath& path : paths) edits.push_back(scene::SetMaterialOf{path, own});
+    editScene(gui, "Make unique", std::move(edits), false);
 }
 
 } // namespace
@@ -149,9 +157,9 @@ void drawMaterialFields(Gui& gui, const scene::ObjectPath& path) {
     if (found == nullptr) return;
     const std::string name = *found; // edits may move the object
     ImGui::PushID("material");
-    drawName(gui, path, name);
+    drawName(gui, name);
     if (const auto at = scene.materials.find(name); at != scene.materials.end()) {
-        drawUnique(gui, path, name);
+        drawUnique(gui, name);
         scene::MaterialDesc material = scene.materials.at(name);
         const bool isOther = drawKind(material);
         if (drawNumbers(material) || isOther)

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "Common/Gui/Widgets.h"
+#include "Common/Scene/Edit/SameChange.h"
 
 namespace rt::gui {
 namespace {
@@ -122,7 +124,18 @@ void drawTransform(Gui& gui, const scene::ObjectPath& path, scene::Transform tra
         ImGui::PopID();
     }
     if (transform.empty()) note("It stands as it is described: G, R and S move it");
-    if (changed) editScene(gui, "Transform", {scene::SetTransform{path, std::move(transform)}});
+    if (!changed) return;
+    const scene::SceneDesc& scene = gui.editor.document()->scene();
+    const scene::Transform& before = *transformOf(*findObject(scene, path));
+    std::vector<scene::SceneEdit> edits;
+    for (const scene::ObjectPath& selected : gui.editor.selected().paths()) {
+        const scene::Transform* own = transformOf(*findObject(scene, selected));
+        if (own == nullptr) continue;
+        scene::Transform other = *own;
+        changeAlike(before, transform, other);
+        if (other != *own) edits.push_back(scene::SetTransform{selected, std::move(other)});
+    }
+    editScene(gui, "Transform", std::move(edits));
 }
 
 } // namespace
@@ -153,8 +166,16 @@ void drawObjectFields(Gui& gui, const scene::ObjectPath& path) {
     if (const scene::Transform* transform = transformOf(object)) return drawTransform(gui, path, *transform);
     if (!isSmall(object)) return note("G, R and S move it; it gets a group for that");
     scene::ObjectDesc changed = object;
-    if (std::visit(Fields{}, changed.shape))
-        editScene(gui, std::string(app::kindName(object)), {scene::SetObject{path, std::move(changed)}});
+    if (!std::visit(Fields{}, changed.shape)) return;
+    std::vector<scene::SceneEdit> edits;
+    for (const scene::ObjectPath& selected : gui.editor.selected().paths()) {
+        const scene::ObjectDesc& own = *findObject(gui.editor.document()->scene(), selected);
+        if (own.shape.index() != object.shape.index()) continue;
+        scene::ObjectDesc other = own;
+        changeAlike(object, changed, other);
+        if (other != own) edits.push_back(scene::SetObject{selected, std::move(other)});
+    }
+    editScene(gui, app::kindName(object), std::move(edits));
 }
 
 void drawSkyFields(Gui& gui) {

@@ -4,7 +4,8 @@
 
 namespace rt::gui {
 
-void drawObjectFields(Gui& gui, const scene::ObjectPath& path); // that exists
+// `path`: of one that is selected; what is changed of it becomes the others', where they have the like.
+void drawObjectFields(Gui& gui, const scene::ObjectPath& path);
 void drawMaterialFields(Gui& gui, const scene::ObjectPath& path);
 void drawSkyFields(Gui& gui);
 

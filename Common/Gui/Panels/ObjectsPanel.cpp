@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "Common/Core/Printable.h"
 #include "Common/Gui/Panels/ObjectFields.h"
@@ -114,6 +115,20 @@ void openAround(SceneEditing& editing, scene::ObjectPath path) {
         editing.isListStale |= editing.open.insert(path).second;
 }
 
+// With Ctrl besides what is selected, or no longer; with Shift all rows from the one that was clicked last.
+void selectRow(Gui& gui, std::size_t row, const scene::ObjectPath& path) {
+    SceneEditing& editing = gui.editing;
+    const std::size_t start = editing.rangeStart ? editing.list.find(*editing.rangeStart) : editing.list.size();
+    if (ImGui::GetIO().KeyShift && start < editing.list.size()) {
+        std::vector<scene::ObjectPath> paths;
+        for (std::size_t i = std::min(start, row); i <= std::max(start, row); ++i)
+            paths.push_back(editing.list.path(i));
+        return gui.editor.select(std::move(paths), path);
+    }
+    editing.rangeStart = path;
+    ImGui::GetIO().KeyCtrl ? gui.editor.toggle(path) : gui.editor.select(path);
+}
+
 void drawRow(Gui& gui, std::size_t row) {
     SceneEditing& editing = gui.editing;
     const scene::ObjectPath path = editing.list.path(row);
@@ -135,7 +150,7 @@ void drawRow(Gui& gui, std::size_t row) {
         ImGui::SameLine();
     }
     const std::string label = std::to_string(path.indices.back()) + "  " + printable(app::labelOf(*object), 60);
-    if (ImGui::Selectable(label.c_str(), gui.editor.selection() == path)) gui.editor.select(path);
+    if (ImGui::Selectable(label.c_str(), gui.editor.selected().contains(path))) selectRow(gui, row, path);
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) frameSelection(gui);
     if (editing.list.depth(row) > 0) ImGui::Unindent(side * static_cast<float>(editing.list.depth(row)));
     ImGui::PopID();
@@ -180,14 +195,43 @@ void drawCommands(Gui& gui) {
     if (button(gui.editor.isDirty() ? "Save*" : "Save", tip, !gui.editor.isSaving(), width)) saveScene(gui);
 }
 
+// A button that stays lit while what it stands for is so.
+bool litButton(const char* label, const char* tip, bool isLit, float width) {
+    if (isLit) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_SliderGrab));
+    const bool isPressed = button(label, tip, true, width);
+    if (isLit) ImGui::PopStyleColor();
+    return isPressed;
+}
+
+// What handles the picture shows on what is selected: the lit ones once more, and there are none.
+void drawGizmoRow(Gui& gui) {
+    app::GuiSettings& settings = gui.settings;
+    const float space = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 3 * space) / 4;
+    for (const auto& gizmo : app::kGizmos) {
+        const bool isLit = settings.showGizmo && settings.gizmo == gizmo.value;
+        if (litButton(gizmo.title, gizmo.help, isLit, width)) {
+            settings.showGizmo = !isLit;
+            settings.gizmo = gizmo.value;
+        }
+        ImGui::SameLine(0, space);
+    }
+    const char* tip = settings.localAxes ? "X, Y and Z are the object's own; click for those of the scene"
+                                         : "X, Y and Z are those of the scene; click for the object's own";
+    if (litButton(settings.localAxes ? "Local axes" : "World axes", tip, settings.localAxes, width))
+        settings.localAxes = !settings.localAxes;
+}
+
 void drawSelectionPart(Gui& gui) {
     const scene::ObjectPath path = *gui.editor.selection();
     const auto object = [&] { return findObject(gui.editor.document()->scene(), path); };
-    const std::string title = app::kindName(*object());
+    const std::size_t others = gui.editor.selected().size() - 1;
+    const std::string title = std::string(app::kindName(*object())) + "  " + printable(textOf(path), 60);
     ImGui::Separator();
-    ImGui::TextUnformatted((title + "  " + printable(textOf(path), 60)).c_str());
+    ImGui::TextUnformatted(elided(title, ImGui::GetContentRegionAvail().x).c_str());
+    if (others > 0)
+        note("And " + std::to_string(others) + " more: numbers and a material that are set here become theirs, too");
     const float space = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 2 * space) / 3;
-    const bool isDeleted = button("Delete", "The object (Delete)", true, width);
+    const bool isDeleted = button("Delete", "All that is selected (Delete)", true, width);
     ImGui::SameLine(0, space);
     const bool isDuplicated = button("Duplicate", "Beside itself (Shift+D)", true, width);
     ImGui::SameLine(0, space);
@@ -216,6 +260,7 @@ void drawObjectsPanel(Gui& gui) {
     if (gui.editor.document() == nullptr)
         return note(gui.editor.isReading() ? "Reading the scene's description ..." : "There is no scene yet");
     drawCommands(gui);
+    drawGizmoRow(gui);
     drawTree(gui);
     if (gui.editor.selection()) drawSelectionPart(gui);
     if (ImGui::CollapsingHeader("Sky")) drawSkyFields(gui);

@@ -1,9 +1,11 @@
 #include "Common/Scene/Edit/ObjectMotion.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "Common/Scene/Placing.h"
 
@@ -115,6 +117,26 @@ void append(Transform& transform, const Transform& steps) {
     }
 }
 
+glm::dmat3 axesAbout(const glm::dvec3& z) {
+    const glm::dvec3 across = std::abs(z.x) < 0.9 * glm::length(z) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    return {across, glm::cross(z, across), z};
+}
+
+// In the space that the object is described in, not yet at right angles.
+struct OwnAxes {
+    glm::dmat3 operator()(const QuadDesc& quad) const {
+        return {quad.edgeU, quad.edgeV, glm::cross(quad.edgeU, quad.edgeV)};
+    }
+    glm::dmat3 operator()(const DiskDesc& disk) const { return axesAbout(disk.normal); }
+    glm::dmat3 operator()(const CylinderDesc& cylinder) const { return axesAbout(cylinder.top - cylinder.base); }
+    glm::dmat3 operator()(const SpotLightDesc& light) const { return axesAbout(light.direction); }
+    glm::dmat3 operator()(const DirectionalLightDesc& light) const { return axesAbout(light.direction); }
+    template <typename Other>
+    glm::dmat3 operator()(const Other&) const {
+        return glm::dmat3(1.0);
+    }
+};
+
 } // namespace
 
 std::optional<ObjectDesc> mapped(const ObjectDesc& object, const Affine& map) {
@@ -138,8 +160,21 @@ Transform turned(const glm::dvec3& pivot, const glm::dvec3& axis, double degrees
     return {Translate{-pivot}, Rotate{axis, degrees}, Translate{pivot}};
 }
 
-Transform scaled(const glm::dvec3& pivot, const glm::dvec3& factors) {
-    return {Translate{-pivot}, Scale{factors}, Translate{pivot}};
+Transform scaled(const glm::dvec3& pivot, const glm::dvec3& factors, const glm::dmat3& axes) {
+    const bool isEven = factors.x == factors.y && factors.y == factors.z;
+    if (isEven || axes == glm::dmat3(1.0)) return {Translate{-pivot}, Scale{factors}, Translate{pivot}};
+    const Affine turned{axes * scaling(factors).linear * glm::transpose(axes), glm::dvec3(0)};
+    return {Translate{-pivot}, toMatrix(turned), Translate{pivot}};
+}
+
+glm::dmat3 localAxes(const SceneDesc& scene, const ObjectPath& path) {
+    const ObjectDesc* object = findObject(scene, path);
+    if (object == nullptr) return glm::dmat3(1.0);
+    Affine map = groupTransform(scene, path);
+    if (const Transform* own = transformOf(*object)) map = map * toAffine(*own);
+    const glm::dmat3 axes = map.linear * std::visit(OwnAxes{}, object->shape);
+    const glm::dvec3 z = glm::normalize(axes[2]), x = glm::normalize(axes[0] - glm::dot(axes[0], z) * z);
+    return {x, glm::cross(z, x), z};
 }
 
 std::optional<glm::dvec3> lightPosition(const SceneDesc& scene, const ObjectPath& path) {
@@ -149,6 +184,44 @@ std::optional<glm::dvec3> lightPosition(const SceneDesc& scene, const ObjectPath
     if (const auto* point = std::get_if<PointLightDesc>(&object->shape)) return groups.point(point->position);
     if (const auto* spot = std::get_if<SpotLightDesc>(&object->shape)) return groups.point(spot->position);
     return std::nullopt;
+}
+
+Bounds mediumBounds(const SceneDesc& scene, const ObjectPath& path) {
+    const ObjectDesc* object = findObject(scene, path);
+    const auto* medium = object != nullptr ? std::get_if<MediumDesc>(&object->shape) : nullptr;
+    Bounds own, bounds;
+    if (medium == nullptr) return own;
+    if (const auto* box = std::get_if<BoxBoundary>(&medium->boundary)) {
+        own.add(box->min);
+        own.add(box->max);
+    } else {
+        const auto& sphere = std::get<SphereBoundary>(medium->boundary);
+        own.add(sphere.center, sphere.radius);
+    }
+    bounds.add(own, groupTransform(scene, path));
+    return bounds;
+}
+
+// The last ones first, so that the paths of those before stay.
+std::vector<SceneEdit> duplicated(const SceneDesc& scene, const std::vector<ObjectPath>& paths,
+                                  std::vector<ObjectPath>& copies) {
+    std::vector<SceneEdit> edits;
+    copies.clear();
+    for (auto path = paths.rbegin(); path != paths.rend(); ++path) {
+        PlaceObject edit{*path, *findObject(scene, *path)};
+        ++edit.path.indices.back();
+        for (ObjectPath& copy : copies) copy = *placeAfter(edit, copy); // an insertion removes none
+        copies.push_back(edit.path);
+        edits.push_back(std::move(edit));
+    }
+    std::reverse(copies.begin(), copies.end());
+    return edits;
+}
+
+std::vector<SceneEdit> removed(const std::vector<ObjectPath>& paths) {
+    std::vector<SceneEdit> edits;
+    for (auto path = paths.rbegin(); path != paths.rend(); ++path) edits.push_back(PlaceObject{*path, {}});
+    return edits;
 }
 
 } // namespace rt::scene

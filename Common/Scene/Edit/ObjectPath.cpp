@@ -1,5 +1,6 @@
 #include "Common/Scene/Edit/ObjectPath.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace rt::scene {
@@ -30,12 +31,54 @@ std::uint32_t leafCount(const ObjectDesc& object) {
     return sum;
 }
 
+// Through the lists in the order of the paths, which is that of the leaves.
+class LeafSearch {
+  public:
+    explicit LeafSearch(std::span<const ObjectPath> paths) : paths_(paths), ranges_(paths.size()) {}
+
+    void go(const std::vector<ObjectDesc>& objects) {
+        at_.indices.push_back(0);
+        for (std::uint32_t i = 0; i < objects.size() && next_ < paths_.size(); ++i) {
+            at_.indices.back() = i;
+            while (next_ < paths_.size() && paths_[next_] < at_) ranges_[next_++].first = leaf_; // there is no such one
+            const bool isWanted = next_ < paths_.size() && paths_[next_] == at_;
+            const auto* group = std::get_if<GroupDesc>(&objects[i].shape);
+            if (isWanted) {
+                const std::uint32_t count = leafCount(objects[i]);
+                ranges_[next_++] = {leaf_, count};
+                leaf_ += count;
+            } else if (group != nullptr) {
+                go(group->objects);
+            } else {
+                ++leaf_;
+            }
+        }
+        at_.indices.pop_back();
+    }
+    std::vector<ObjectRange> ranges() {
+        for (; next_ < paths_.size(); ++next_) ranges_[next_].first = leaf_;
+        return std::move(ranges_);
+    }
+
+  private:
+    std::span<const ObjectPath> paths_;
+    std::vector<ObjectRange> ranges_;
+    std::size_t next_ = 0; // of the paths
+    std::uint32_t leaf_ = 0;
+    ObjectPath at_;
+};
+
 } // namespace
 
 ObjectPath ObjectPath::child(std::size_t index) const {
     ObjectPath path = *this;
     path.indices.push_back(static_cast<std::uint32_t>(index));
     return path;
+}
+
+bool ObjectPath::isWithin(const ObjectPath& group) const {
+    return prototype == group.prototype && indices.size() > group.indices.size() &&
+           std::equal(group.indices.begin(), group.indices.end(), indices.begin());
 }
 
 std::string textOf(const ObjectPath& path) {
@@ -90,17 +133,10 @@ ObjectPath pathOfLeaf(const SceneDesc& scene, std::uint32_t leaf) {
     return {};
 }
 
-LeafRange leavesOf(const SceneDesc& scene, const ObjectPath& path) {
-    if (!path.prototype.empty() || findObject(scene, path) == nullptr) return {};
-    LeafRange range;
-    const std::vector<ObjectDesc>* list = &scene.objects;
-    for (const std::uint32_t index : path.indices) {
-        for (std::uint32_t i = 0; i < index; ++i) range.first += leafCount((*list)[i]);
-        const ObjectDesc& object = (*list)[index];
-        range.count = leafCount(object);
-        if (const auto* group = std::get_if<GroupDesc>(&object.shape)) list = &group->objects;
-    }
-    return range;
+std::vector<ObjectRange> leavesOf(const SceneDesc& scene, std::span<const ObjectPath> paths) {
+    LeafSearch search(paths);
+    search.go(scene.objects);
+    return search.ranges();
 }
 
 const std::string* materialNameOf(const ObjectDesc& object) {

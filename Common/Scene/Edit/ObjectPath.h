@@ -5,10 +5,12 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "Common/Scene/Affine.h"
+#include "Common/Scene/Origins.h"
 #include "Common/Scene/SceneDesc.h"
 
 namespace rt::scene {
@@ -18,7 +20,8 @@ struct ObjectPath {
     std::vector<std::uint32_t> indices; // in its list, then in those of the groups that it leads through; never empty
 
     auto operator<=>(const ObjectPath&) const = default;
-    ObjectPath child(std::size_t index) const; // of a group
+    ObjectPath child(std::size_t index) const;    // of a group
+    bool isWithin(const ObjectPath& group) const; // not the group itself
 };
 
 std::string textOf(const ObjectPath& path); // as the JSON path of a scene file: "/objects/3/objects/1"
@@ -35,10 +38,9 @@ Affine groupTransform(const SceneDesc& scene, const ObjectPath& path);
 // Objects that are no groups, counted depth first through the scene's own lists: what CompiledScene::origins counts.
 // Nothing for an object of a prototype, or where there is none.
 ObjectPath pathOfLeaf(const SceneDesc& scene, std::uint32_t leaf); // without indices where there are not so many
-struct LeafRange {
-    std::uint32_t first = 0, count = 0; // of a group, all that are in it
-};
-LeafRange leavesOf(const SceneDesc& scene, const ObjectPath& path);
+// For each of the objects, whose paths are sorted and none within another: of a group, all that are in it; of a
+// prototype's object, and where there is none, no leaves.
+std::vector<ObjectRange> leavesOf(const SceneDesc& scene, std::span<const ObjectPath> paths);
 
 // The name of the material of its surface; null for objects that have none of their own.
 const std::string* materialNameOf(const ObjectDesc& object);

@@ -1,6 +1,7 @@
 #include "Common/Scene/Edit/SceneDocument.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "Common/Scene/Edit/EditCheck.h"
 
@@ -72,6 +73,19 @@ void SceneDocument::giveUp(std::uint64_t gesture) {
     if (gesture == 0 || position_ == 0 || steps_[position_ - 1].gesture != gesture) return;
     undo();
     steps_.resize(position_);
+}
+
+void SceneDocument::joinSteps(std::string name) {
+    if (position_ < 2 || position_ != steps_.size() || savedAt_ == position_ - 1) return;
+    Step later = std::move(steps_.back());
+    steps_.pop_back();
+    Step& step = steps_.back();
+    step.name = std::move(name);
+    step.gesture = later.gesture;
+    step.edits.insert(step.edits.end(), std::make_move_iterator(later.edits.begin()),
+                      std::make_move_iterator(later.edits.end()));
+    if (savedAt_ == position_) savedAt_ = position_ - 1;
+    --position_;
 }
 
 std::size_t SceneDocument::historyBytes() const {

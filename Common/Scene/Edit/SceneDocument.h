@@ -23,6 +23,7 @@ class SceneDocument {
     bool undo(); // false: there is nothing to undo
     bool redo();
     void giveUp(std::uint64_t gesture); // the latest step, where it is of that: as if it had never been
+    void joinSteps(std::string name);   // the latest two, unless it was saved in between, become one
 
     // The names of all steps, of which the first position() are done.
     std::size_t position() const { return position_; }

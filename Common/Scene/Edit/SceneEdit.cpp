@@ -143,6 +143,25 @@ bool changesStructure(const SceneEdit& edit) {
            (set != nullptr && std::holds_alternative<GroupDesc>(set->object.shape));
 }
 
+std::optional<ObjectPath> placeAfter(const SceneEdit& edit, ObjectPath path) {
+    if (const auto* placed = std::get_if<PlaceObject>(&edit)) {
+        ObjectPath list = placed->path;
+        const std::uint32_t at = list.indices.back();
+        list.indices.pop_back();
+        if (!path.isWithin(list)) return path;
+        std::uint32_t& index = path.indices[list.indices.size()];
+        if (!placed->object && index == at) return std::nullopt;
+        if (placed->object && index >= at) ++index;
+        if (!placed->object && index > at) --index;
+    }
+    if (const auto* wrapped = std::get_if<WrapObject>(&edit)) {
+        if (!path.isWithin(wrapped->path)) return path;
+        const auto inner = path.indices.begin() + static_cast<std::ptrdiff_t>(wrapped->path.indices.size());
+        wrapped->transform ? (void)path.indices.insert(inner, 0) : (void)path.indices.erase(inner);
+    }
+    return path;
+}
+
 bool replaces(const SceneEdit& later, const SceneEdit& earlier) {
     const auto* moved = std::get_if<SetTransform>(&later);
     const auto* wrapped = std::get_if<WrapObject>(&earlier);

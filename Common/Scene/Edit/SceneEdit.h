@@ -72,6 +72,9 @@ void exchange(SceneDesc& scene, SceneEdit& edit);
 // Whether which objects there are, and in which order, depends on it.
 bool changesStructure(const SceneEdit& edit);
 
+// Where an object stands after an edit that has not been applied yet; nothing where that removes it.
+std::optional<ObjectPath> placeAfter(const SceneEdit& edit, ObjectPath path);
+
 // Whether the later one replaces what the earlier one has set, so that the earlier one undoes both.
 bool replaces(const SceneEdit& later, const SceneEdit& earlier);
 
