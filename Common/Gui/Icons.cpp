@@ -50,11 +50,24 @@ void drawFolder(Pen& pen) {
     pen.line({{0.05f, 0.85f}, {0.05f, 0.2f}, {0.38f, 0.2f}, {0.48f, 0.32f}, {0.95f, 0.32f}, {0.95f, 0.85f}}, true);
 }
 
+void drawLids(Pen& pen) {
+    pen.arc({0.5f, 0.78f}, 0.53f, 0.589f, 0.911f);
+    pen.arc({0.5f, 0.22f}, 0.53f, 0.089f, 0.411f);
+}
+
 } // namespace
 
 void drawIcon(ImDrawList& list, Icon icon, ImVec2 corner, float side, ImU32 color) {
     Pen pen(list, {std::round(corner.x), std::round(corner.y)}, side, color);
     switch (icon) {
+        case Icon::Eye:
+            drawLids(pen);
+            pen.disk({0.5f, 0.5f}, 0.15f);
+            break;
+        case Icon::ClosedEye:
+            drawLids(pen);
+            pen.line({{0.15f, 0.88f}, {0.85f, 0.12f}});
+            break;
         case Icon::Start:
             pen.fill({{0.18f, 0.06f}, {0.94f, 0.5f}, {0.18f, 0.94f}});
             break;

@@ -23,7 +23,9 @@ enum class Icon {
     Close,
     Folder,
     File,
-    Up
+    Up,
+    Eye,
+    ClosedEye
 };
 
 // Into a square of that side at `corner`.

@@ -14,6 +14,7 @@
 #include "Common/Gui/Theme.h"
 #include "Common/Gui/Widgets.h"
 #include "Common/Scene/Edit/ObjectMotion.h"
+#include "Common/Scene/Edit/Visibility.h"
 
 namespace rt::gui {
 namespace {
@@ -198,6 +199,31 @@ void duplicateSelection(Gui& gui) {
     const scene::Transform steps = {scene::Translate{0.2 * size * rightOf(gui.camera.camera())}};
     if (size > 0 && editScene(gui, "Move", movedAll(gui.editor.document()->scene(), copies, steps), false))
         gui.editor.joinSteps(name);
+}
+
+void hideObjects(Gui& gui, const std::vector<scene::ObjectPath>& paths, bool areHidden) {
+    if (gui.editing.tool) endTool(gui, false);
+    editScene(gui, areHidden ? "Hide" : "Show", hidden(gui.editor.document()->scene(), paths, areHidden), false);
+}
+
+void hideSelection(Gui& gui) {
+    const std::vector<scene::ObjectPath>& paths = gui.editor.selected().paths();
+    const scene::SceneDesc& scene = gui.editor.document()->scene();
+    const auto isHidden = [&](const scene::ObjectPath& path) { return findObject(scene, path)->hidden; };
+    hideObjects(gui, paths, !std::all_of(paths.begin(), paths.end(), isHidden));
+}
+
+void soloSelection(Gui& gui) {
+    if (gui.editing.tool) endTool(gui, false);
+    auto edits = soloed(gui.editor.document()->scene(), gui.editor.selected().paths());
+    if (edits.empty()) return gui.say("All else is hidden by now: Alt+H shows it");
+    editScene(gui, "Solo", std::move(edits), false);
+}
+
+void showAllObjects(Gui& gui) {
+    if (gui.editor.document() == nullptr) return;
+    if (gui.editing.tool) endTool(gui, false);
+    editScene(gui, "Show all", allShown(gui.editor.document()->scene()), false);
 }
 
 void assignMaterial(Gui& gui, const std::string& name) {

@@ -52,6 +52,8 @@ struct SceneEditing {
     std::string materialCounted; // how many surfaces have it
     std::uint64_t countRevision = ~std::uint64_t{0};
     std::size_t materialUses = 0;
+    bool isAnyHidden = false; // of the scene's objects, at that revision
+    std::uint64_t hiddenRevision = ~std::uint64_t{0};
     std::function<void()> whenSaved; // what waits until the user has said what becomes of unsaved edits; none
     bool goesOnAfterSaving = false;
     bool isDiscarded = false; // what is not saved is not wanted
@@ -77,6 +79,10 @@ void duplicateSelection(Gui& gui);
 void assignMaterial(Gui& gui, const std::string& name); // to what is selected and has surfaces
 void frameSelection(Gui& gui);                          // moves the camera until it is in sight; turns it not
 void deselect(Gui& gui);
+void hideObjects(Gui& gui, const std::vector<scene::ObjectPath>& paths, bool areHidden);
+void hideSelection(Gui& gui); // or shows it, where all of it is hidden
+void soloSelection(Gui& gui); // hides all else but what gives light
+void showAllObjects(Gui& gui);
 
 void drawSelection(Gui& gui, const Rect& image, const Rect& area); // outlined in the picture
 // Edits that lead all of the objects through the steps, of which none lies within another.

@@ -19,6 +19,7 @@ enum class When {
     Always,    // also while text is typed
     Control,   // with Ctrl, also while text is typed
     CtrlShift, // likewise
+    Alt,       // with Alt, and not while text is typed
     Plain,     // without Ctrl, and not while text is typed
 };
 
@@ -68,9 +69,9 @@ bool editByKey(Gui& gui, const InputEvent& press) {
     const bool isPlain = (press.modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT)) == 0;
     if (!gui.editor.selection() || ImGui::GetIO().WantTextInput || gui.browser.isOpen()) return false;
     if (steerTool(gui, press)) return true;
-    const bool isDuplicate = press.code == GLFW_KEY_D && (press.modifiers & GLFW_MOD_SHIFT) != 0;
+    const bool isShifted = (press.modifiers & GLFW_MOD_SHIFT) != 0;
     if (!isPlain) return false;
-    if (isDuplicate) return duplicateSelection(gui), true;
+    if (press.code == GLFW_KEY_D && isShifted) return duplicateSelection(gui), true;
     switch (press.code) {
         case GLFW_KEY_G:
             return beginTool(gui, Kind::Move), true;
@@ -82,6 +83,8 @@ bool editByKey(Gui& gui, const InputEvent& press) {
             return frameSelection(gui), true;
         case GLFW_KEY_DELETE:
             return deleteSelection(gui), true;
+        case GLFW_KEY_H:
+            return isShifted ? soloSelection(gui) : hideSelection(gui), true;
         default:
             return false;
     }
@@ -126,6 +129,7 @@ constexpr Shortcut kShortcuts[] = {
     {GLFW_KEY_B, When::Plain, holdPicture},
     {GLFW_KEY_V, When::Plain, compareOtherwise},
     {GLFW_KEY_N, When::Plain, [](Gui& gui) { toggle(gui.settings.denoise); }},
+    {GLFW_KEY_H, When::Alt, showAllObjects},
     {GLFW_KEY_H, When::Plain, [](Gui& gui) { gui.toggleHeatMap(); }},
     {GLFW_KEY_P, When::Plain, [](Gui& gui) { gui.setRayTracing(!gui.settings.rayTracing); }},
     {GLFW_KEY_TAB, When::Plain, walkPanels},
@@ -144,6 +148,8 @@ bool applies(const Shortcut& shortcut, const InputEvent& press) {
             return control;
         case When::CtrlShift:
             return control && (press.modifiers & GLFW_MOD_SHIFT) != 0;
+        case When::Alt:
+            return (press.modifiers & GLFW_MOD_ALT) != 0 && !ImGui::GetIO().WantTextInput;
         case When::Plain:
             break;
     }
@@ -190,7 +196,7 @@ void obeyKey(Gui& gui, const InputEvent& press) {
     if (editByKey(gui, press)) return;
     for (const Shortcut& shortcut : kShortcuts) {
         if (shortcut.key != press.code || !applies(shortcut, press)) continue;
-        if (isBrowsing && shortcut.when == When::Plain) return;
+        if (isBrowsing && (shortcut.when == When::Plain || shortcut.when == When::Alt)) return;
         shortcut.act(gui);
         return;
     }

@@ -4,6 +4,7 @@
 #include <initializer_list>
 
 #include "Common/Scene/CompiledScene.h"
+#include "Common/Scene/SceneDesc.h"
 #include "Common/Shared/Base/Types.h"
 
 namespace rt::scene {
@@ -85,6 +86,14 @@ Affine mapOf(const shared::Instance& instance) {
 }
 
 } // namespace
+
+std::uint32_t leafCount(const ObjectDesc& object) {
+    const auto* group = std::get_if<GroupDesc>(&object.shape);
+    if (group == nullptr) return 1;
+    std::uint32_t sum = 0;
+    for (const ObjectDesc& child : group->objects) sum += leafCount(child);
+    return sum;
+}
 
 std::uint32_t originOf(std::span<const OriginRun> runs, std::uint32_t primitive) {
     const auto isBefore = [](std::uint32_t index, const OriginRun& run) { return index < run.first; };

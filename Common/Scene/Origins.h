@@ -9,6 +9,7 @@
 namespace rt::scene {
 
 struct CompiledScene;
+struct ObjectDesc;
 
 // Primitives from `first` on, up to where the next run begins.
 struct OriginRun {
@@ -25,6 +26,9 @@ struct Origins {
 
 // `runs` are not empty, as there is the primitive.
 std::uint32_t originOf(std::span<const OriginRun> runs, std::uint32_t primitive);
+
+// How many an object counts as: of a group, all that are in it. Hidden ones count.
+std::uint32_t leafCount(const ObjectDesc& object);
 
 // Objects that follow each other.
 struct ObjectRange {

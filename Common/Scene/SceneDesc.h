@@ -320,6 +320,7 @@ struct ObjectDesc {
         std::variant<SphereDesc, SphereSetDesc, QuadDesc, BoxDesc, DiskDesc, CylinderDesc, MeshDesc, MediumDesc,
                      PointLightDesc, SpotLightDesc, DirectionalLightDesc, GroupDesc, InstanceDesc>;
     Shape shape;
+    bool hidden = false; // it, and all that is in it, is as if it were not there
     bool operator==(const ObjectDesc&) const = default;
 };
 inline bool GroupDesc::operator==(const GroupDesc& other) const {

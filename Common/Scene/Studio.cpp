@@ -66,7 +66,7 @@ struct LightTest {
 };
 
 bool isLight(const SceneDesc& scene, const ObjectDesc& object) {
-    return std::visit(LightTest{scene}, object.shape);
+    return !object.hidden && std::visit(LightTest{scene}, object.shape);
 }
 
 // The bounds of lists of objects, of each prototype once.

@@ -187,5 +187,45 @@ TEST_P(EditingTest, TheGizmoMovesSnapsAndDuplicates) {
     expectCleanEnd();
 }
 
+TEST_P(EditingTest, WhatIsHiddenIsNotInThePictureAndStaysInTheFile) {
+    startWithThreeBalls();
+    ASSERT_FALSE(HasFatalFailure());
+    ASSERT_TRUE(eventually(
+        [this] {
+            click(kBallX, kBallY);
+            pause(1500);
+            return isSelected("Sphere  /objects/1");
+        },
+        kSeen))
+        << log();
+    pointAtNothing();
+    key("h");
+    ASSERT_TRUE(eventually([this] { return isMarkedUnsaved(); }, kSeen)) << title() << log();
+    const auto isHidden = [this](std::size_t object) {
+        const nlohmann::json scene = saved();
+        return scene.is_object() && scene["objects"][object].value("hidden", false);
+    };
+    save([&] { return isHidden(1); });
+    EXPECT_FALSE(isHidden(0));
+    key("Escape");
+    pause(1000);
+    click(kBallX, kBallY); // there is nothing any more
+    pause(1500);
+    EXPECT_FALSE(isSelected("Sphere  /objects/1"));
+    ASSERT_TRUE(clickText("Show all", kSidePlace, [this] { return isMarkedUnsaved(); })) << log();
+    save([&] { return !isHidden(1); });
+    ASSERT_TRUE(eventually([this] {
+        click(kBallX, kBallY);
+        pause(1500);
+        return isSelected("Sphere  /objects/1");
+    }));
+    key("shift+h");
+    save([&] { return isHidden(0) && isHidden(2); });
+    EXPECT_FALSE(isHidden(1));
+    key("alt+h");
+    save([&] { return !isHidden(0) && !isHidden(2); });
+    expectCleanEnd();
+}
+
 } // namespace
 } // namespace rt::test

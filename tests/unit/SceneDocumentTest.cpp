@@ -94,7 +94,7 @@ class RandomEdits {
 
     SceneEdit edit(const SceneDesc& scene) {
         const ObjectPath path = this->path(scene);
-        switch (pick(12)) {
+        switch (pick(13)) {
             case 0:
                 return SetObject{path, {ball({number(), number(), number()}, number(), material())}};
             case 1:
@@ -115,6 +115,8 @@ class RandomEdits {
                 return SetCamera{{{number(), number(), number()}, {0, 0, 0}, {0, 1, 0}, 40, 0, 10}};
             case 9:
                 return SetBackground{ConstantBackground{glm::dvec3(number())}};
+            case 11:
+                return SetHidden{path, pick(2) == 0};
             case 10:
                 return SetTexture{"map", CheckerTexture{number(), glm::dvec3(0.5), glm::dvec3(1)}};
             default:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -130,8 +131,9 @@ const GizmoHandle* handleAt(const std::vector<GizmoHandle>& handles, double aspe
                             double distance) {
     const auto inHeights = [aspect](const glm::dvec2& p) { return glm::dvec2(p.x * aspect, p.y); };
     const GizmoHandle* nearest = nullptr;
+    const double inside = 0.5 * distance; // lines that cross an area win
     for (const GizmoHandle& handle : handles) {
-        double own = contains(handle.area, place) ? 0.5 * distance : 2 * distance; // lines beside it win
+        double own = contains(handle.area, place) ? inside : std::numeric_limits<double>::infinity();
         for (const auto& [from, to] : handle.lines)
             own = std::min(own, distanceTo({inHeights(from), inHeights(to)}, inHeights(place)));
         if (own > distance) continue;

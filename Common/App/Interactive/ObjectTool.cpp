@@ -30,9 +30,9 @@ std::optional<glm::dvec2> arm(const ViewProjection& view, const glm::dvec3& pivo
     return glm::dvec2(offset.x * view.aspect(), offset.y);
 }
 
-// Fractions of 1 as the decimal number that they are.
+// Fractions of 1 as the decimal number that they are; 0 without a sign.
 double rounded(double value, double step) {
-    const double count = std::round(value / step);
+    const double count = std::round(value / step) + 0.0;
     return step < 1 ? count / std::round(1 / step) : count * step;
 }
 

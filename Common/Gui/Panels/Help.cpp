@@ -64,6 +64,8 @@ constexpr HelpLine kRight[] = {
     {"X, Y, Z; Ctrl", "along that axis; by whole steps"},
     {"Drag a handle", "the same, with Shift of a copy"},
     {"Shift+D, Delete", "duplicate, delete"},
+    {"H, Shift+H", "hide, hide all else"},
+    {"Alt+H", "show all"},
 };
 
 constexpr float kMinLetters = 0.6f;

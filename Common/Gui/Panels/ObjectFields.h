@@ -1,9 +1,10 @@
-// What the panel of objects says of one of them, to be changed there.
+// What the panel of objects is made of: their tree, and what it says of one of them, to be changed there.
 #pragma once
 #include "Common/Gui/Gui.h"
 
 namespace rt::gui {
 
+void drawObjectTree(Gui& gui);
 // `path`: of one that is selected; what is changed of it becomes the others', where they have the like.
 void drawObjectFields(Gui& gui, const scene::ObjectPath& path);
 void drawMaterialFields(Gui& gui, const scene::ObjectPath& path);

@@ -12,7 +12,6 @@
 namespace rt::gui {
 namespace {
 
-constexpr std::size_t kFewLines = 3, kManyLines = 7; // of the list's height
 constexpr std::size_t kHistoryLines = 12;
 
 // ---- adding --------------------------------------------------------------------------------------------------------
@@ -97,87 +96,6 @@ void drawAddMenu(Gui& gui) {
     ImGui::EndPopup();
 }
 
-// ---- the tree ------------------------------------------------------------------------------------------------------
-
-// Anew only when it would be another one.
-void refreshList(Gui& gui) {
-    SceneEditing& editing = gui.editing;
-    const scene::SceneDocument& document = *gui.editor.document();
-    const bool isOfAnother = std::exchange(editing.listRevision, document.structure()) != document.structure();
-    const bool isOtherSearch = std::exchange(editing.listSearch, editing.search) != editing.search;
-    if (!isOfAnother && !isOtherSearch && !std::exchange(editing.isListStale, false)) return;
-    editing.isListStale = false;
-    editing.list.build(document.scene(), editing.open, editing.search);
-}
-
-void openAround(SceneEditing& editing, scene::ObjectPath path) {
-    for (path.indices.pop_back(); !path.indices.empty(); path.indices.pop_back())
-        editing.isListStale |= editing.open.insert(path).second;
-}
-
-// With Ctrl besides what is selected, or no longer; with Shift all rows from the one that was clicked last.
-void selectRow(Gui& gui, std::size_t row, const scene::ObjectPath& path) {
-    SceneEditing& editing = gui.editing;
-    const std::size_t start = editing.rangeStart ? editing.list.find(*editing.rangeStart) : editing.list.size();
-    if (ImGui::GetIO().KeyShift && start < editing.list.size()) {
-        std::vector<scene::ObjectPath> paths;
-        for (std::size_t i = std::min(start, row); i <= std::max(start, row); ++i)
-            paths.push_back(editing.list.path(i));
-        return gui.editor.select(std::move(paths), path);
-    }
-    editing.rangeStart = path;
-    ImGui::GetIO().KeyCtrl ? gui.editor.toggle(path) : gui.editor.select(path);
-}
-
-void drawRow(Gui& gui, std::size_t row) {
-    SceneEditing& editing = gui.editing;
-    const scene::ObjectPath path = editing.list.path(row);
-    const scene::ObjectDesc* object = findObject(gui.editor.document()->scene(), path);
-    if (object == nullptr) return;
-    ImGui::PushID(static_cast<int>(row));
-    const float side = ImGui::GetFontSize();
-    if (editing.list.depth(row) > 0) ImGui::Indent(side * static_cast<float>(editing.list.depth(row)));
-    const bool isGroup = std::holds_alternative<scene::GroupDesc>(object->shape) && editing.listSearch.empty();
-    if (isGroup) {
-        const bool isOpen = editing.open.contains(path);
-        ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, 0}); // all rows are of one height
-        const bool isPressed = ImGui::ArrowButton("##open", isOpen ? ImGuiDir_Down : ImGuiDir_Right);
-        ImGui::PopStyleVar();
-        if (isPressed) {
-            isOpen ? (void)editing.open.erase(path) : (void)editing.open.insert(path);
-            editing.isListStale = true;
-        }
-        ImGui::SameLine();
-    }
-    const std::string label = std::to_string(path.indices.back()) + "  " + printable(app::labelOf(*object), 60);
-    if (ImGui::Selectable(label.c_str(), gui.editor.selected().contains(path))) selectRow(gui, row, path);
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) frameSelection(gui);
-    if (editing.list.depth(row) > 0) ImGui::Unindent(side * static_cast<float>(editing.list.depth(row)));
-    ImGui::PopID();
-}
-
-void drawTree(Gui& gui) {
-    SceneEditing& editing = gui.editing;
-    ImGui::SetNextItemWidth(-1);
-    inputText("##search", "Search objects and materials", editing.search);
-    if (editing.revealsSelection && gui.editor.selection()) openAround(editing, *gui.editor.selection());
-    refreshList(gui);
-    const auto lines = static_cast<float>(std::clamp(editing.list.size() + 1, kFewLines, kManyLines));
-    if (ImGui::BeginChild("##tree", {0, lines * ImGui::GetFrameHeightWithSpacing()}, true)) {
-        const float height = ImGui::GetTextLineHeightWithSpacing();
-        if (std::exchange(editing.revealsSelection, false) && gui.editor.selection()) {
-            const std::size_t row = editing.list.find(*gui.editor.selection());
-            ImGui::SetScrollY(std::max(0.0f, (static_cast<float>(row) - 0.5f * lines) * height));
-        }
-        ImGuiListClipper clipper;
-        clipper.Begin(static_cast<int>(editing.list.size()), height);
-        while (clipper.Step())
-            for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row)
-                drawRow(gui, static_cast<std::size_t>(row));
-    }
-    ImGui::EndChild();
-}
-
 // ---- all of it -----------------------------------------------------------------------------------------------------
 
 void drawCommands(Gui& gui) {
@@ -230,12 +148,14 @@ void drawSelectionPart(Gui& gui) {
     ImGui::TextUnformatted(elided(title, ImGui::GetContentRegionAvail().x).c_str());
     if (others > 0)
         note("And " + std::to_string(others) + " more: numbers and a material that are set here become theirs, too");
-    const float space = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 2 * space) / 3;
+    const float space = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 3 * space) / 4;
     const bool isDeleted = button("Delete", "All that is selected (Delete)", true, width);
     ImGui::SameLine(0, space);
     const bool isDuplicated = button("Duplicate", "Beside itself (Shift+D)", true, width);
     ImGui::SameLine(0, space);
     if (button("Frame", "Moves the camera until all of it is in sight (F)", true, width)) frameSelection(gui);
+    ImGui::SameLine(0, space);
+    if (button("Solo", "Hides all else but what gives light (Shift+H)", true, width)) soloSelection(gui);
     drawObjectFields(gui, path);
     if (object() != nullptr) drawMaterialFields(gui, path);
     if (isDuplicated) duplicateSelection(gui);
@@ -261,7 +181,7 @@ void drawObjectsPanel(Gui& gui) {
         return note(gui.editor.isReading() ? "Reading the scene's description ..." : "There is no scene yet");
     drawCommands(gui);
     drawGizmoRow(gui);
-    drawTree(gui);
+    drawObjectTree(gui);
     if (gui.editor.selection()) drawSelectionPart(gui);
     if (ImGui::CollapsingHeader("Sky")) drawSkyFields(gui);
     const scene::CameraDesc& view = gui.camera.camera();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "Common/Core/Error.h"
+#include "Common/Scene/Origins.h"
 
 namespace rt::scene {
 
@@ -35,6 +36,7 @@ InstancePlan::InstancePlan(const SceneDesc& desc, const MaterialTable& materials
 double InstancePlan::instanceCount(const std::vector<ObjectDesc>& objects, const std::string& place) {
     double sum = 0;
     for (std::size_t i = 0; i < objects.size(); ++i) {
+        if (objects[i].hidden) continue;
         const auto at = [&] { return place + "/" + std::to_string(i); };
         if (const auto* group = std::get_if<GroupDesc>(&objects[i].shape))
             sum += instanceCount(group->objects, at() + "/objects");
@@ -65,6 +67,10 @@ double InstancePlan::instanceCount(const InstanceDesc& instance, const std::stri
 void InstancePlan::find(const std::vector<ObjectDesc>& objects, const Affine& toWorld, const MaterialDesc* material,
                         const std::optional<std::uint32_t>& instance) {
     for (const ObjectDesc& object : objects) {
+        if (object.hidden) {
+            if (!instance) nextObject_ += leafCount(object);
+            continue;
+        }
         if (const auto* group = std::get_if<GroupDesc>(&object.shape)) {
             find(group->objects, toWorld * toAffine(group->transform), material, instance);
             continue;
@@ -84,6 +90,7 @@ std::size_t InstancePlan::primitiveCount(const std::vector<ObjectDesc>& objects)
     std::size_t sum = 0;
     for (const ObjectDesc& object : objects) {
         const auto& shape = object.shape;
+        if (object.hidden) continue;
         if (const auto* spheres = std::get_if<SphereSetDesc>(&shape))
             sum += spheres->centers.size();
         else if (const auto* mesh = std::get_if<MeshDesc>(&shape))

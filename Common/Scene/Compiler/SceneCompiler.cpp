@@ -78,6 +78,10 @@ class Compiler {
     void emit(const std::vector<ObjectDesc>& objects, const Placement& parent) {
         Placement at = parent;
         for (std::size_t i = 0; i < objects.size(); ++i) {
+            if (objects[i].hidden) {
+                if (emitsOwnObjects_) nextObject_ += leafCount(objects[i]);
+                continue;
+            }
             at.place.assign(parent.place).append("/").append(std::to_string(i));
             std::visit([&](const auto& object) { emitOne(object, at); }, objects[i].shape);
             const bool isGroup = std::holds_alternative<GroupDesc>(objects[i].shape);
@@ -146,6 +150,7 @@ class Compiler {
     void count(const std::vector<ObjectDesc>& objects, std::size_t times, PrimitiveCounts& sum) {
         for (const ObjectDesc& object : objects) {
             const auto& shape = object.shape;
+            if (object.hidden) continue;
             if (std::holds_alternative<SphereDesc>(shape))
                 sum.spheres += times;
             else if (const auto* spheres = std::get_if<SphereSetDesc>(&shape))

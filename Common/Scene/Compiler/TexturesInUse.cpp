@@ -15,7 +15,8 @@ class Search {
         forEachTexture(material, [&](const std::string& name) { names_.push_back(name); });
     }
     void add(const std::vector<ObjectDesc>& objects) {
-        for (const ObjectDesc& object : objects) std::visit([&](const auto& shape) { addOne(shape); }, object.shape);
+        for (const ObjectDesc& object : objects)
+            if (!object.hidden) std::visit([&](const auto& shape) { addOne(shape); }, object.shape);
     }
     std::vector<std::string> names() { return std::move(names_); }
 

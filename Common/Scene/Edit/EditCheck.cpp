@@ -214,6 +214,7 @@ struct Check {
         named.material = edit.material;
         ObjectCheck(scene, edit.path).checkName({named}, textOf(edit.path));
     }
+    void operator()(const SetHidden& edit) const { (void)object(edit.path); }
     void operator()(const PlaceObject& edit) const {
         if (!edit.object) return (void)object(edit.path);
         ObjectPath last = edit.path;

@@ -148,7 +148,10 @@ SceneEdit moved(const SceneDesc& scene, const ObjectPath& path, const Transform&
     const Affine groups = groupTransform(scene, path);
     Transform inside = steps;
     if (!isIdentity(groups)) inside = {toMatrix(inverse(groups).value() * toAffine(steps) * groups)};
-    if (auto changed = mapped(object, toAffine(inside))) return SetObject{path, std::move(*changed)};
+    if (auto changed = mapped(object, toAffine(inside))) {
+        changed->hidden = object.hidden;
+        return SetObject{path, std::move(*changed)};
+    }
     const Transform* own = transformOf(object);
     if (own == nullptr) return WrapObject{path, inside};
     Transform transform = *own;

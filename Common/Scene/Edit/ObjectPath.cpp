@@ -23,14 +23,6 @@ const std::vector<ObjectDesc>* findList(const SceneDesc& scene, const ObjectPath
     return list;
 }
 
-std::uint32_t leafCount(const ObjectDesc& object) {
-    const auto* group = std::get_if<GroupDesc>(&object.shape);
-    if (group == nullptr) return 1;
-    std::uint32_t sum = 0;
-    for (const ObjectDesc& child : group->objects) sum += leafCount(child);
-    return sum;
-}
-
 // Through the lists in the order of the paths, which is that of the leaves.
 class LeafSearch {
   public:

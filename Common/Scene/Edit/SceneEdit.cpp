@@ -29,6 +29,7 @@ struct Exchange {
     void operator()(SetMaterialOf& edit) const {
         std::swap(*materialNameOf(*findObject(scene, edit.path)), edit.material);
     }
+    void operator()(SetHidden& edit) const { std::swap(findObject(scene, edit.path)->hidden, edit.isHidden); }
     void operator()(PlaceObject& edit) const {
         std::vector<ObjectDesc>& list = *listOf(scene, edit.path);
         const auto at = list.begin() + static_cast<Position>(edit.path.indices.back());
@@ -47,10 +48,12 @@ struct Exchange {
             group.transform = std::move(*edit.transform);
             group.objects.push_back(std::move(object));
             object.shape = std::move(group);
+            object.hidden = edit.isHidden;
             edit.transform.reset();
         } else {
             GroupDesc group = std::move(std::get<GroupDesc>(object.shape));
             edit.transform = std::move(group.transform);
+            edit.isHidden = object.hidden;
             object = std::move(group.objects.front());
         }
     }
@@ -113,6 +116,7 @@ struct HeapOfEdit {
     std::size_t operator()(const SetObject& edit) const { return heapOf(edit.path) + heapOf(edit.object); }
     std::size_t operator()(const SetTransform& edit) const { return heapOf(edit.path) + heapOf(edit.transform); }
     std::size_t operator()(const SetMaterialOf& edit) const { return heapOf(edit.path) + heapOf(edit.material); }
+    std::size_t operator()(const SetHidden& edit) const { return heapOf(edit.path); }
     std::size_t operator()(const PlaceObject& edit) const {
         return heapOf(edit.path) + (edit.object ? heapOf(*edit.object) : 0);
     }

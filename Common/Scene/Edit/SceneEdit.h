@@ -25,6 +25,10 @@ struct SetMaterialOf {
     ObjectPath path;
     std::string material;
 };
+struct SetHidden {
+    ObjectPath path;
+    bool isHidden = false;
+};
 // With an object: inserts it, and what stood there goes behind it. Without: removes what stands there.
 struct PlaceObject {
     ObjectPath path;
@@ -34,6 +38,7 @@ struct PlaceObject {
 struct WrapObject {
     ObjectPath path;
     std::optional<Transform> transform;
+    bool isHidden = false; // the group
 };
 // What has a name in the scene; without a value: it is removed.
 struct SetMaterial {
@@ -63,8 +68,9 @@ struct SetTargets {
 struct SetTitle {
     std::string value;
 };
-using SceneEdit = std::variant<SetObject, SetTransform, SetMaterialOf, PlaceObject, WrapObject, SetMaterial, SetTexture,
-                               SetPrototype, SetCamera, SetBackground, SetRenderDefaults, SetTargets, SetTitle>;
+using SceneEdit =
+    std::variant<SetObject, SetTransform, SetMaterialOf, SetHidden, PlaceObject, WrapObject, SetMaterial, SetTexture,
+                 SetPrototype, SetCamera, SetBackground, SetRenderDefaults, SetTargets, SetTitle>;
 
 // Applies it; afterwards it is what undoes it. It must be valid, see EditCheck.h.
 void exchange(SceneDesc& scene, SceneEdit& edit);

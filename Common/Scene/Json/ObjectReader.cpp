@@ -56,6 +56,13 @@ Transform readTransform(const JsonNode& node) {
     return transform;
 }
 
+// What any object may have, besides the keys of its kind.
+void expectObject(const JsonNode& node, std::initializer_list<const char*> keys) {
+    std::vector<const char*> allowed(keys);
+    allowed.push_back("hidden");
+    node.expectKeys(allowed);
+}
+
 // ---- surfaces ------------------------------------------------------------------------------------------------------
 
 template <typename Surface>
@@ -79,7 +86,7 @@ std::vector<glm::dvec3> readVectors(const JsonNode& node) {
 }
 
 SphereDesc readSphere(const JsonNode& node) {
-    node.expectKeys({"type", "center", "center_end", "radius", "material", "light"});
+    expectObject(node, {"type", "center", "center_end", "radius", "material", "light"});
     SphereDesc sphere;
     sphere.center = node.at("center").vector();
     sphere.radius = node.at("radius").positive();
@@ -88,7 +95,7 @@ SphereDesc readSphere(const JsonNode& node) {
 }
 
 SphereSetDesc readSphereSet(const JsonNode& node) {
-    node.expectKeys({"type", "centers", "radius", "material", "light"});
+    expectObject(node, {"type", "centers", "radius", "material", "light"});
     SphereSetDesc spheres;
     spheres.centers = readVectors(node.at("centers"));
     spheres.radius = node.at("radius").positive();
@@ -117,7 +124,7 @@ BoxBoundary readBoxShape(const JsonNode& node) {
 }
 
 BoxDesc readBox(const JsonNode& node) {
-    node.expectKeys({"type", "min", "max", "material", "light"});
+    expectObject(node, {"type", "min", "max", "material", "light"});
     const BoxBoundary shape = readBoxShape(node);
     BoxDesc box;
     box.min = shape.min;
@@ -133,7 +140,7 @@ double readBelow(const JsonNode& node, double limit, const char* name) {
 }
 
 DiskDesc readDisk(const JsonNode& node) {
-    node.expectKeys({"type", "center", "normal", "radius", "inner_radius", "material", "light"});
+    expectObject(node, {"type", "center", "normal", "radius", "inner_radius", "material", "light"});
     DiskDesc disk;
     disk.center = node.at("center").vector();
     disk.normal = readDirection(node.at("normal"));
@@ -143,7 +150,7 @@ DiskDesc readDisk(const JsonNode& node) {
 }
 
 CylinderDesc readCylinder(const JsonNode& node) {
-    node.expectKeys({"type", "base", "top", "radius", "material", "light"});
+    expectObject(node, {"type", "base", "top", "radius", "material", "light"});
     CylinderDesc cylinder;
     cylinder.base = node.at("base").vector();
     cylinder.top = node.at("top").vector();
@@ -200,14 +207,14 @@ MeshData readMeshData(const JsonNode& node) {
 MeshDesc readMesh(const JsonNode& node, const SceneReferences& references) {
     MeshDesc mesh;
     if (node.has("file")) {
-        node.expectKeys({"type", "file", "stand_in", "material", "light"});
+        expectObject(node, {"type", "file", "stand_in", "material", "light"});
         MeshFile source;
         if (const auto standIn = node.find("stand_in")) source.standIn = readChoice(*standIn, meshStandInNames());
         source.file = references.file(node.at("file"), !source.standIn.empty());
         mesh.source = source;
     } else {
-        node.expectKeys(
-            {"type", "positions", "normals", "uvs", "uvs2", "colors", "tangents", "triangles", "material", "light"});
+        expectObject(node, {"type", "positions", "normals", "uvs", "uvs2", "colors", "tangents", "triangles",
+                            "material", "light"});
         mesh.source = readMeshData(node);
     }
     // Only a file can bring materials of its own.
@@ -219,7 +226,7 @@ MeshDesc readMesh(const JsonNode& node, const SceneReferences& references) {
 // ---- other objects -------------------------------------------------------------------------------------------------
 
 MediumDesc readMedium(const JsonNode& node, const SceneReferences& references) {
-    node.expectKeys({"type", "boundary", "density", "albedo"});
+    expectObject(node, {"type", "boundary", "density", "albedo"});
     MediumDesc medium;
     const JsonNode boundary = node.at("boundary");
     if (boundary.at("type").oneOf({"sphere", "box"}) == "sphere") {
@@ -235,12 +242,12 @@ MediumDesc readMedium(const JsonNode& node, const SceneReferences& references) {
 }
 
 PointLightDesc readPointLight(const JsonNode& node) {
-    node.expectKeys({"type", "position", "intensity"});
+    expectObject(node, {"type", "position", "intensity"});
     return {node.at("position").vector(), node.at("intensity").vectorWithin(0, kLargest)};
 }
 
 SpotLightDesc readSpotLight(const JsonNode& node) {
-    node.expectKeys({"type", "position", "direction", "intensity", "inner_angle", "outer_angle"});
+    expectObject(node, {"type", "position", "direction", "intensity", "inner_angle", "outer_angle"});
     SpotLightDesc light;
     light.position = node.at("position").vector();
     light.direction = readDirection(node.at("direction"));
@@ -252,12 +259,12 @@ SpotLightDesc readSpotLight(const JsonNode& node) {
 }
 
 DirectionalLightDesc readDirectionalLight(const JsonNode& node) {
-    node.expectKeys({"type", "direction", "irradiance"});
+    expectObject(node, {"type", "direction", "irradiance"});
     return {readDirection(node.at("direction")), node.at("irradiance").vectorWithin(0, kLargest)};
 }
 
 GroupDesc readGroup(const JsonNode& node, const SceneReferences& references) {
-    node.expectKeys({"type", "transform", "objects"});
+    expectObject(node, {"type", "transform", "objects"});
     GroupDesc group;
     if (const auto transform = node.find("transform")) group.transform = readTransform(*transform);
     group.objects = readObjects(node.at("objects"), references);
@@ -265,7 +272,7 @@ GroupDesc readGroup(const JsonNode& node, const SceneReferences& references) {
 }
 
 InstanceDesc readInstance(const JsonNode& node, const SceneReferences& references) {
-    node.expectKeys({"type", "prototype", "transform", "material"});
+    expectObject(node, {"type", "prototype", "transform", "material"});
     InstanceDesc instance;
     instance.prototype = references.name(node.at("prototype"), "prototypes");
     if (const auto transform = node.find("transform")) instance.transform = readTransform(*transform);
@@ -273,7 +280,7 @@ InstanceDesc readInstance(const JsonNode& node, const SceneReferences& reference
     return instance;
 }
 
-ObjectDesc readObject(const JsonNode& node, const SceneReferences& references) {
+ObjectDesc readShape(const JsonNode& node, const SceneReferences& references) {
     const std::string type =
         node.at("type").oneOf({"sphere", "spheres", "quad", "box", "disk", "cylinder", "mesh", "medium", "point_light",
                                "spot_light", "directional_light", "group", "instance"});
@@ -289,8 +296,14 @@ ObjectDesc readObject(const JsonNode& node, const SceneReferences& references) {
     if (type == "directional_light") return {readDirectionalLight(node)};
     if (type == "group") return {readGroup(node, references)};
     if (type == "instance") return {readInstance(node, references)};
-    node.expectKeys({"type", "corner", "edge_u", "edge_v", "material", "light"});
+    expectObject(node, {"type", "corner", "edge_u", "edge_v", "material", "light"});
     return {readSurface(readQuadShape(node), node, references)};
+}
+
+ObjectDesc readObject(const JsonNode& node, const SceneReferences& references) {
+    ObjectDesc object = readShape(node, references);
+    if (const auto hidden = node.find("hidden")) object.hidden = hidden->boolean();
+    return object;
 }
 
 } // namespace

@@ -318,10 +318,21 @@ OrderedJson json(const InstanceDesc& instance) {
     return out;
 }
 
+// Behind the type, where it is seen.
+OrderedJson withHidden(OrderedJson object) {
+    OrderedJson out = {{"type", object["type"]}, {"hidden", true}};
+    for (auto& [key, value] : object.items())
+        if (key != "type") out[key] = std::move(value);
+    return out;
+}
+
 OrderedJson json(const std::vector<ObjectDesc>& objects) {
     OrderedJson out = OrderedJson::array();
-    for (const ObjectDesc& object : objects)
-        out.push_back(std::visit([](const auto& shape) { return json(shape); }, object.shape));
+    for (const ObjectDesc& object : objects) {
+        OrderedJson all = std::visit([](const auto& shape) { return json(shape); }, object.shape);
+        if (object.hidden) all = withHidden(std::move(all));
+        out.push_back(std::move(all));
+    }
     return out;
 }
 
