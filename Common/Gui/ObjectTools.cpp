@@ -87,7 +87,7 @@ void beginTool(Gui& gui, app::ObjectTool::Kind kind) {
     if (gui.editing.tool) endTool(gui, false);
     const auto axes = restingAxes(gui);
     if (!axes) return gui.say("What is selected is nowhere that it could be moved from");
-    gui.editing.tool.emplace(kind, *axes, placeOf(ImGui::GetIO().MousePos, gui.shownImage));
+    gui.editing.tool.emplace(kind, *axes, placeInPicture(ImGui::GetIO().MousePos, gui.shownImage));
     gui.editing.toolGesture = gui.editor.newGesture();
 }
 
@@ -131,7 +131,7 @@ void followTool(Gui& gui, const Rect& image) {
     if (io.MouseDelta.x == 0 && io.MouseDelta.y == 0 && !isOtherSnap && !editing.isToolStale) return;
     editing.isToolStale = false;
     const app::ObjectTool& tool = *editing.tool;
-    const auto motion = tool.motion(projectionOf(gui), placeOf(io.MousePos, image), editing.isSnapped);
+    const auto motion = tool.motion(projectionOf(gui), placeInPicture(io.MousePos, image), editing.isSnapped);
     if (!motion) return;
     constexpr const char* kNames[] = {"Move", "Turn", "Scale"};
     try {
@@ -159,7 +159,7 @@ bool gripGizmo(Gui& gui, const Rect& image, bool isInside) {
     if (!isInside || !isGizmoShown(gui) || io.KeyAlt || io.MouseDown[1] || io.MouseDown[2]) return false;
     if (io.MouseDown[0] && !io.MouseClicked[0]) return false; // for something else
     const std::vector<app::GizmoHandle> handles = handlesNow(gui, image);
-    const glm::dvec2 place = placeOf(io.MousePos, image);
+    const glm::dvec2 place = placeInPicture(io.MousePos, image);
     const double reach = inHeights(kReachOfPointer * ImGui::GetFontSize(), image);
     const app::ViewProjection view = projectionOf(gui);
     const app::GizmoHandle* handle = handleAt(handles, view.aspect(), place, reach);
@@ -176,18 +176,17 @@ bool gripGizmo(Gui& gui, const Rect& image, bool isInside) {
 
 namespace {
 
-using Handle = app::GizmoHandle;
-
-ImU32 colorOf(int axis) {
+ImU32 axisColorOf(int axis) {
     return ImGui::ColorConvertFloat4ToU32(axisColor(axis));
 }
 
-void drawLines(const Handle& handle, const Rect& image, ImU32 color, float width, ImDrawList& list) {
+void drawLines(const app::GizmoHandle& handle, const Rect& image, ImU32 color, float width, ImDrawList& list) {
     for (const auto& [from, to] : handle.lines) list.AddLine(inWindow(from, image), inWindow(to, image), color, width);
 }
 
 // An arrow's head or a box, at the end of an arm.
-void drawEnd(const Handle::Line& arm, bool isBox, const Rect& image, ImU32 color, float size, ImDrawList& list) {
+void drawEnd(const app::GizmoHandle::Line& arm, bool isBox, const Rect& image, ImU32 color, float size,
+             ImDrawList& list) {
     const ImVec2 from = inWindow(arm.first, image), end = inWindow(arm.second, image);
     if (isBox) return list.AddRectFilled({end.x - size, end.y - size}, {end.x + size, end.y + size}, color);
     const float x = end.x - from.x, y = end.y - from.y, length = std::max(1e-3f, std::sqrt(x * x + y * y));
@@ -196,7 +195,7 @@ void drawEnd(const Handle::Line& arm, bool isBox, const Rect& image, ImU32 color
                            {end.x - ahead.x - aside.x, end.y - ahead.y - aside.y}, color);
 }
 
-void drawArea(const Handle& handle, const Rect& image, ImU32 color, ImU32 edge, ImDrawList& list) {
+void drawArea(const app::GizmoHandle& handle, const Rect& image, ImU32 color, ImU32 edge, ImDrawList& list) {
     if (handle.area.size() != 4) return;
     ImVec2 p[4];
     for (std::size_t i = 0; i < 4; ++i) p[i] = inWindow(handle.area[i], image);
@@ -211,9 +210,9 @@ void drawLetter(int axis, const ImVec2& at, ImU32 color, ImDrawList& list) {
     list.AddText(corner, color, kLetters[axis]);
 }
 
-void drawHandle(const Gui& gui, const Handle& handle, bool isLit, const Rect& image, ImDrawList& list) {
+void drawHandle(const Gui& gui, const app::GizmoHandle& handle, bool isLit, const Rect& image, ImDrawList& list) {
     const float width = lineWidth(), size = 2.2f * width;
-    const ImU32 plain = colorOf(handle.constraint ? handle.constraint->axis : -1);
+    const ImU32 plain = axisColorOf(handle.constraint ? handle.constraint->axis : -1);
     const ImU32 color = isLit ? kLit : plain;
     const bool isBox = gui.settings.gizmo == app::ObjectTool::Kind::Scale;
     drawLines(handle, image, kShade, 2 * width, list);
@@ -236,7 +235,7 @@ void drawAxis(const Gui& gui, const Rect& image, ImDrawList& list) {
     if (!line) return;
     const ImVec2 from = inWindow(line->first, image), to = inWindow(line->second, image);
     list.AddLine(from, to, kShade, 3);
-    list.AddLine(from, to, colorOf(constraint->axis), 1.5f);
+    list.AddLine(from, to, axisColorOf(constraint->axis), 1.5f);
 }
 
 // What the tool does, beside the pointer.
@@ -268,7 +267,7 @@ void drawTools(Gui& gui, const Rect& image, const Rect& area) {
     list.PushClipRect(low, high);
     if (gui.editing.tool) drawAxis(gui, image, list);
     if (isGizmoShown(gui) && (isHeld || !gui.editing.tool))
-        for (const Handle& handle : handlesNow(gui, image)) {
+        for (const app::GizmoHandle& handle : handlesNow(gui, image)) {
             const bool isLit = isHeld ? handle.constraint == gui.editing.tool->constraint()
                                       : gui.editing.hovered && *gui.editing.hovered == handle.constraint;
             if (isLit || !isDragged(gui)) drawHandle(gui, handle, isLit, image, list);

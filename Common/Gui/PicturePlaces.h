@@ -20,7 +20,7 @@ inline ImVec2 inWindow(const glm::dvec2& place, const Rect& image) {
     return {image.x + static_cast<float>(place.x) * image.width, image.y + static_cast<float>(place.y) * image.height};
 }
 
-inline glm::dvec2 placeOf(const ImVec2& point, const Rect& image) {
+inline glm::dvec2 placeInPicture(const ImVec2& point, const Rect& image) {
     return {(point.x - image.x) / std::max(1.0f, image.width), (point.y - image.y) / std::max(1.0f, image.height)};
 }
 

@@ -14,9 +14,9 @@ constexpr double kArmBegin = 0.18;                      // of an arm's length, w
 constexpr double kSquareBegin = 0.3, kSquareEnd = 0.52; // of planes, along both axes
 constexpr double kMiddleRadius = 0.12, kTurnRadius = 1.18, kScaleRadius = 1.22; // of circles across the view
 constexpr double kLetterPlace = 1.16;
-constexpr double kShortest = 0.15;   // arm, as seen, of its length
-constexpr double kSteepest = 0.15;   // plane: cosine between its normal and the sight
-constexpr double kHalfDepth = -0.15; // of rings, of their radius: what is behind that is hidden
+constexpr double kShortestArm = 0.15;   // arm, as seen, of its length
+constexpr double kFlattestPlane = 0.15; // plane: cosine between its normal and the sight
+constexpr double kHalfDepth = -0.15;    // of rings, of their radius: what is behind that is hidden
 constexpr int kSegments = 64;
 
 class Builder {
@@ -50,13 +50,13 @@ class Builder {
     void addArm(int axis) {
         const glm::dvec3& d = direction(axis);
         const auto line = view_.line(at(kArmBegin * d), at(d));
-        if (!line || seenLength(*line) < kShortest * size_) return;
+        if (!line || seenLength(*line) < kShortestArm * size_) return;
         handles_.push_back({ObjectTool::Constraint{axis, false}, {*line}, {}, line, view_.place(at(kLetterPlace * d))});
     }
 
     void addSquare(int axis) {
         const glm::dvec3 &u = direction(axis + 1), &v = direction(axis + 2);
-        if (std::abs(glm::dot(direction(axis), toEye_)) < kSteepest) return;
+        if (std::abs(glm::dot(direction(axis), toEye_)) < kFlattestPlane) return;
         GizmoHandle handle{ObjectTool::Constraint{axis, true}, {}};
         constexpr double a = kSquareBegin, b = kSquareEnd;
         for (const glm::dvec3& corner : {a * u + a * v, b * u + a * v, b * u + b * v, a * u + b * v})
@@ -79,7 +79,7 @@ class Builder {
         }
         // Where the ring goes behind: letters are apart there.
         const glm::dvec3 end = glm::cross(direction(axis), toEye_);
-        const bool isFacing = glm::length(end) < kShortest;
+        const bool isFacing = glm::length(end) < kShortestArm;
         handle.letter = view_.place(at(kLetterPlace * glm::normalize(isFacing ? u + v : end)));
         handles_.push_back(std::move(handle));
     }
@@ -110,7 +110,7 @@ double distanceTo(const GizmoHandle::Line& line, const glm::dvec2& place) {
 }
 
 // Convex, of either sense.
-bool contains(const std::vector<glm::dvec2>& area, const glm::dvec2& place) {
+bool isInArea(const std::vector<glm::dvec2>& area, const glm::dvec2& place) {
     int left = 0, right = 0;
     for (std::size_t i = 0; i < area.size(); ++i) {
         const glm::dvec2 &a = area[i], &b = area[(i + 1) % area.size()];
@@ -133,7 +133,7 @@ const GizmoHandle* handleAt(const std::vector<GizmoHandle>& handles, double aspe
     const GizmoHandle* nearest = nullptr;
     const double inside = 0.5 * distance; // lines that cross an area win
     for (const GizmoHandle& handle : handles) {
-        double own = contains(handle.area, place) ? inside : std::numeric_limits<double>::infinity();
+        double own = isInArea(handle.area, place) ? inside : std::numeric_limits<double>::infinity();
         for (const auto& [from, to] : handle.lines)
             own = std::min(own, distanceTo({inHeights(from), inHeights(to)}, inHeights(place)));
         if (own > distance) continue;

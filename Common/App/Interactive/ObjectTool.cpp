@@ -31,18 +31,18 @@ std::optional<glm::dvec2> arm(const ViewProjection& view, const glm::dvec3& pivo
 }
 
 // Fractions of 1 as the decimal number that they are; 0 without a sign.
-double rounded(double value, double step) {
+double toStep(double value, double step) {
     const double count = std::round(value / step) + 0.0;
     return step < 1 ? count / std::round(1 / step) : count * step;
 }
 
-std::string numbers(const glm::dvec3& v) {
+std::string threeNumbers(const glm::dvec3& v) {
     char text[96];
     std::snprintf(text, sizeof text, ": %.4g, %.4g, %.4g", v.x, v.y, v.z);
     return text;
 }
 
-std::string number(const char* format, double value) {
+std::string oneNumber(const char* format, double value) {
     char text[48];
     std::snprintf(text, sizeof text, format, value);
     return text;
@@ -120,10 +120,10 @@ std::optional<ObjectTool::Motion> ObjectTool::move(const ViewProjection& view, c
         way[constraint_->axis] = 0;
     }
     const double step = moveStep(view);
-    for (int i = 0; i < 3 && isSnapped; ++i) way[i] = rounded(way[i], step);
+    for (int i = 0; i < 3 && isSnapped; ++i) way[i] = toStep(way[i], step);
     std::string text = textOf("Move", "along");
-    text += isLine ? number(": %.4g", way[constraint_->axis]) : numbers(way);
-    if (isSnapped) text += number(" by steps of %.4g", step);
+    text += isLine ? oneNumber(": %.4g", way[constraint_->axis]) : threeNumbers(way);
+    if (isSnapped) text += oneNumber(" by steps of %.4g", step);
     return Motion{{scene::Translate{axes_.directions * way}}, std::move(text)};
 }
 
@@ -158,9 +158,9 @@ std::optional<ObjectTool::Motion> ObjectTool::turn(const ViewProjection& view, c
     if (!angle) return std::nullopt;
     const bool pointsAway = !isRing && glm::dot(axis, view.eye() - axes_.pivot) < 0;
     double degrees = (pointsAway ? -1 : 1) * glm::degrees(*angle);
-    if (isSnapped) degrees = rounded(degrees, kTurnStep);
+    if (isSnapped) degrees = toStep(degrees, kTurnStep);
     return Motion{scene::turned(axes_.pivot, axis, degrees),
-                  textOf("Turn", "about") + number(": %.1f degrees", degrees)};
+                  textOf("Turn", "about") + oneNumber(": %.1f degrees", degrees)};
 }
 
 std::optional<ObjectTool::Motion> ObjectTool::scale(const ViewProjection& view, const glm::dvec2& place,
@@ -182,7 +182,8 @@ std::optional<ObjectTool::Motion> ObjectTool::scale(const ViewProjection& view, 
     glm::dvec3 factors(factor);
     for (int i = 0; i < 3 && constraint_; ++i)
         if ((i == constraint_->axis) == constraint_->isPlane) factors[i] = 1;
-    return Motion{scene::scaled(axes_.pivot, factors, axes_.directions), textOf("Scale", "along") + numbers(factors)};
+    return Motion{scene::scaled(axes_.pivot, factors, axes_.directions),
+                  textOf("Scale", "along") + threeNumbers(factors)};
 }
 
 } // namespace rt::app

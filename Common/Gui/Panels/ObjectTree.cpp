@@ -56,7 +56,7 @@ bool drawEye(bool isHidden, float side) {
     return isPressed;
 }
 
-void drawRow(Gui& gui, std::size_t row) {
+void drawObjectRow(Gui& gui, std::size_t row) {
     SceneEditing& editing = gui.editing;
     const scene::ObjectPath path = editing.list.path(row);
     const scene::ObjectDesc* object = findObject(gui.editor.document()->scene(), path);
@@ -121,7 +121,7 @@ void drawObjectTree(Gui& gui) {
         clipper.Begin(static_cast<int>(editing.list.size()), height);
         while (clipper.Step())
             for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row)
-                drawRow(gui, static_cast<std::size_t>(row));
+                drawObjectRow(gui, static_cast<std::size_t>(row));
     }
     ImGui::EndChild();
 }

@@ -57,28 +57,30 @@ constexpr auto membersOf(const Scale*) {
 // ---- values --------------------------------------------------------------------------------------------------------
 
 template <typename Value>
-void follow(const Value& before, const Value& after, Value& other);
+void takeOver(const Value& before, const Value& after, Value& other);
 
 template <typename... Kinds>
-void follow(const std::variant<Kinds...>& before, const std::variant<Kinds...>& after, std::variant<Kinds...>& other) {
+void takeOver(const std::variant<Kinds...>& before, const std::variant<Kinds...>& after,
+              std::variant<Kinds...>& other) {
     if (before.index() != after.index() || other.index() != after.index()) return;
-    std::visit([&]<typename Kind>(Kind& kind) { follow(std::get<Kind>(before), std::get<Kind>(after), kind); }, other);
+    std::visit([&]<typename Kind>(Kind& kind) { takeOver(std::get<Kind>(before), std::get<Kind>(after), kind); },
+               other);
 }
 
-void follow(const std::optional<glm::dvec3>& before, const std::optional<glm::dvec3>& after,
-            std::optional<glm::dvec3>& other) {
-    if (before && after && other) follow(*before, *after, *other);
+void takeOver(const std::optional<glm::dvec3>& before, const std::optional<glm::dvec3>& after,
+              std::optional<glm::dvec3>& other) {
+    if (before && after && other) takeOver(*before, *after, *other);
 }
 
 template <typename Value>
-void follow(const Value& before, const Value& after, Value& other) {
+void takeOver(const Value& before, const Value& after, Value& other) {
     if constexpr (std::is_same_v<Value, glm::dvec3>) {
         for (int i = 0; i < 3; ++i)
             if (before[i] != after[i]) other[i] = after[i];
     } else if constexpr (std::is_arithmetic_v<Value>) {
         if (before != after) other = after;
     } else if constexpr (requires { membersOf(&other); }) {
-        std::apply([&](auto... member) { (follow(before.*member, after.*member, other.*member), ...); },
+        std::apply([&](auto... member) { (takeOver(before.*member, after.*member, other.*member), ...); },
                    membersOf(&other));
     }
 }
@@ -86,14 +88,14 @@ void follow(const Value& before, const Value& after, Value& other) {
 } // namespace
 
 void changeAlike(const ObjectDesc& before, const ObjectDesc& after, ObjectDesc& other) {
-    follow(before.shape, after.shape, other.shape);
+    takeOver(before.shape, after.shape, other.shape);
 }
 
 void changeAlike(const Transform& before, const Transform& after, Transform& other) {
     if (before.size() != after.size() || other.size() != after.size()) return;
     for (std::size_t i = 0; i < other.size(); ++i)
         if (before[i].index() != other[i].index()) return;
-    for (std::size_t i = 0; i < other.size(); ++i) follow(before[i], after[i], other[i]);
+    for (std::size_t i = 0; i < other.size(); ++i) takeOver(before[i], after[i], other[i]);
 }
 
 } // namespace rt::scene
