@@ -89,7 +89,7 @@ double sentOutByGlass(const PrincipledLobes& lobes, const vec3& wo, int channel)
                const double t = std::sqrt(std::max(squared, 0.0));
                const double s = (eta * c - t) / (eta * c + t), p = (c - eta * t) / (c + eta * t);
                const double bare = squared > 0 ? 0.5 * (s * s + p * p) : 1;
-               const double reflected = scale * bare + offset;
+               const double reflected = bare < 1 ? scale * bare + offset : 1;
                return reflected * passing(cosO, 2 * c * double(h.z) - cosO, alpha) +
                       (1 - reflected) * passing(cosO, eta * cosO - (eta * c - t) * double(h.z), alpha);
            });

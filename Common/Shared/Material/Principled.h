@@ -76,8 +76,9 @@ RT_FN bool isFilmed(Features features, RT_IN(PrincipledLobes) lobes) {
     return has(features, kFeatureIridescence) && hasLobe(lobes.others, kLobeFilm);
 }
 
-// What glass reflects under a film, where it would reflect so much without.
+// What glass reflects under a film, where it would reflect so much without: all under total reflection.
 RT_FN vec3 filmedReflectance(RT_IN(PrincipledLobes) lobes, float bare) {
+    if (!(bare < 1.0f)) return vec3(1.0f);
     return lobes.rare.filmScale * bare + lobes.rare.filmOffset;
 }
 

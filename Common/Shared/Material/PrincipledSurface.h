@@ -94,14 +94,16 @@ RT_FN Film filmOf(RT_IN(PrincipledValues) values, RT_IN(Film) bare, float cosine
     return film;
 }
 
-// What filmed glass reflects and transmits in all, at most: `reflection` is the albedo of facets that reflect all,
-// `whole` that of the glass without a film. Where the film reflects more, so much of it reflects all; where it reflects
-// less, the rest transmits what the glass would reflect.
-RT_FN float filmedAlbedo(RT_IN(Film) film, float reflection, float whole) {
-    float transmitted = 1.0f - min(film.glassScale.x + film.glassOffset.x,
-                                   min(film.glassScale.y + film.glassOffset.y, film.glassScale.z + film.glassOffset.z));
+// What filmed solid glass reflects and transmits in all, at most: `reflection` is the albedo of facets that reflect all,
+// `whole` that of the glass without a film, `bare` what it reflects of the direction wo. Where the film reflects more, so
+// much of it reflects all. Where it reflects less, what bare facets reflect is transmitted, and less of it is lost; they
+// reflect twice what a flat surface does, at most.
+RT_FN float filmedAlbedo(RT_IN(Film) film, float reflection, float whole, float bare) {
+    vec3 part = film.glassScale + film.glassOffset;
+    float transmitted = 1.0f - min(part.x, min(part.y, part.z));
     float most = max(whole, reflection);
-    return most + transmitted * max(1.0f - most, 0.0f);
+    float gained = min((2.0f * bare + 0.02f) * (1.0f - reflection), 1.0f - most);
+    return most + transmitted * max(gained, 0.0f);
 }
 
 // ---- lobes ---------------------------------------------------------------------------------------------------------
@@ -181,14 +183,16 @@ RT_FN float glassBoost(Features features, SceneRef scene, RT_IN(PrincipledValues
         reflection = own.x + own.y;
     }
     float whole = reflection; // a sheet mirrors to its other side what it does not reflect
-    if (values.glass != kNone) whole = glassAlbedo(scene, values.glass, !front, cosine, values.roughness);
-    if (isFilmed(features, lobes)) whole = filmedAlbedo(film, reflection, whole);
+    if (values.glass != kNone) {
+        whole = glassAlbedo(scene, values.glass, !front, cosine, values.roughness);
+        if (isFilmed(features, lobes)) whole = filmedAlbedo(film, reflection, whole, fresnel(cosine, lobes.eta).x);
+    }
     return compensation(vec3(1.0f), whole).x;
 }
 
 // The lobes of a bsdf that has these values and the base colour `albedo`. `cosine` is that of wo and `a` its
-// facetsAlbedo(); `coatNormal` is as lobes have it, `coatCosine` that of wo with it; `front`
-// tells whether wo is on the front side. Without a branch but for values.others, for loops over samples.
+// facetsAlbedo(); `coatNormal` is as lobes have it, `coatCosine` that of wo with it; `front` tells whether wo is on the
+// front side. Without a branch but for values.others, for loops over samples.
 RT_FN PrincipledLobes makeLobes(Features features, SceneRef scene, RT_IN(PrincipledValues) values, vec3 albedo,
                                 float cosine, vec3 a, vec3 coatNormal, float coatCosine, bool front) {
     PrincipledLobes lobes;

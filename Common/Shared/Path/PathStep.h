@@ -1,8 +1,7 @@
 // The path tracer: a path, vertex by vertex. Each vertex goes through these stages:
 //
 //   shadeHit             collision in a medium, emission weighed against the light sampling of the vertex before, surface,
-//                        the side on which the path goes on where light is transmitted diffusely, its channel where
-//                        glass disperses
+//                        its colour channel where glass disperses, its side where light is transmitted diffusely
 //   choose a light       mis, mixture: chooseLight() by lightSelectionSample()
 //   sample and weigh it  mis: sampleDirectLight(), which leaves a shadow ray
 //   scatter              the bsdf's sample, or in its place the mixture's
