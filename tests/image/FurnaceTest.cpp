@@ -1,7 +1,10 @@
 // Scenes whose radiance is known everywhere: whatever a path does, it must gather the same light.
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include "Common/App/Interactive/MaterialPresets.h"
 #include "tests/image/AnalyticScenes.h"
 #include "tests/image/Harness.h"
 
@@ -65,6 +68,18 @@ TEST(Furnace, LosslessBodiesAreInvisibleInAWhiteSky) {
     settings.maxDepth = 4096;
     for (const MaterialDesc& material : {lambertian(1), glass, mirror}) {
         EXPECT_TRUE(isMean(render(inWhiteSky(material), settings), glm::dvec3(1)));
+    }
+}
+
+TEST(Furnace, MaterialsOfTheLibraryMakeNoLight) {
+    std::vector<std::string> failures;
+    const auto presets = app::readMaterialPresets(std::string(RT_SOURCE_DIR) + "/Assets/materials", failures);
+    EXPECT_GE(presets.size(), 30u);
+    for (const app::MaterialPreset& preset : presets) {
+        const MaterialDesc& material = preset.scene->materials.at(preset.name);
+        const Estimate estimate = render(inWhiteSky(material), smallSettings(8, 512));
+        for (int c = 0; c < 3; ++c) // white surfaces are white to the percent that tables leave
+            EXPECT_LE(estimate.mean[c], 1.01 + 4 * estimate.standardError[c]) << preset.name << ' ' << c;
     }
 }
 

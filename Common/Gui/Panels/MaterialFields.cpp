@@ -7,6 +7,7 @@
 #include "Common/Gui/Panels/ObjectFields.h"
 #include "Common/Gui/Widgets.h"
 #include "Common/Scene/Edit/EditCheck.h"
+#include "Common/Scene/Edit/MaterialTransfer.h"
 #include "Common/Scene/Json/PrincipledType.h"
 #include "Common/Scene/MaterialTypes.h"
 
@@ -113,13 +114,6 @@ void drawName(Gui& gui, const std::string& current) {
     ImGui::EndCombo();
 }
 
-std::string newName(const scene::SceneDesc& scene, const std::string& like) {
-    for (int number = 2;; ++number) {
-        std::string name = like + " " + std::to_string(number);
-        if (!scene.materials.contains(name)) return name;
-    }
-}
-
 // Counted once for each change of the scene: it may be large.
 std::size_t usesOf(Gui& gui, const std::string& name) {
     SceneEditing& editing = gui.editing;
@@ -143,7 +137,8 @@ void drawUnique(Gui& gui, const std::string& name) {
     if (!button("Make unique", "Gives what is selected a material of its own, like the one it has",
                 {uses > paths.size(), "no other object has this material"}))
         return;
-    const std::string own = newName(scene, name);
+    const auto isTaken = [&](const std::string& other) { return scene.materials.contains(other); };
+    const std::string own = scene::freeName(name, isTaken);
     std::vector<scene::SceneEdit> edits{scene::SetMaterial{own, scene.materials.at(name)}};
     for (const scene::ObjectPath& path : paths) edits.push_back(scene::SetMaterialOf{path, own});
     editScene(gui, "Make unique", std::move(edits), false);

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "Common/Core/Error.h"
-#include "Common/Scene/Json/PrincipledType.h"
 #include "Common/Scene/Json/SceneJson.h"
+#include "Common/Scene/TextureNames.h"
 
 namespace rt::scene {
 
@@ -20,35 +20,6 @@ namespace {
 }
 
 // ---- what refers to what -------------------------------------------------------------------------------------------
-
-using VisitName = std::function<void(const std::string&)>;
-
-void visitName(const ColorOrTexture& source, const VisitName& visit) {
-    if (const auto* name = std::get_if<std::string>(&source)) visit(*name);
-}
-
-void forEachTexture(const MaterialDesc& material, const VisitName& visit) {
-    visitName(material.albedo, visit);
-    if (!material.emissionTexture.empty()) visit(material.emissionTexture);
-    forEachPrincipledParameter([&](const SceneParameter&, auto member) {
-        const auto& value = material.principled.*member;
-        using Value = std::decay_t<decltype(value)>;
-        if constexpr (std::is_same_v<Value, ColorOrTexture>) {
-            visitName(value, visit);
-        } else if constexpr (std::is_same_v<Value, NumberOrTexture>) {
-            if (!value.texture.empty()) visit(value.texture);
-        } else if constexpr (std::is_same_v<Value, std::string>) {
-            if (!value.empty()) visit(value);
-        }
-    });
-}
-
-void forEachTexture(const TextureDesc& texture, const VisitName& visit) {
-    if (const auto* checker = std::get_if<CheckerTexture>(&texture)) {
-        visitName(checker->even, visit);
-        visitName(checker->odd, visit);
-    }
-}
 
 void forEachObject(const std::vector<ObjectDesc>& objects, const std::function<void(const ObjectDesc&)>& visit) {
     for (const ObjectDesc& object : objects) {
@@ -64,11 +35,11 @@ void forEachObject(const SceneDesc& scene, const std::function<void(const Object
 
 std::size_t textureUses(const SceneDesc& scene, const std::string& texture) {
     std::size_t uses = 0;
-    const VisitName count = [&](const std::string& name) { uses += name == texture; };
-    for (const auto& [name, material] : scene.materials) forEachTexture(material, count);
-    for (const auto& [name, other] : scene.textures) forEachTexture(other, count);
+    const auto count = [&](const std::string& name) { uses += name == texture; };
+    for (const auto& [name, material] : scene.materials) forEachTextureName(material, count);
+    for (const auto& [name, other] : scene.textures) forEachInnerTexture(other, count);
     forEachObject(scene, [&](const ObjectDesc& object) {
-        if (const auto* medium = std::get_if<MediumDesc>(&object.shape)) visitName(medium->albedo, count);
+        if (const auto* medium = std::get_if<MediumDesc>(&object.shape)) visitTextureName(medium->albedo, count);
     });
     return uses;
 }
@@ -169,7 +140,7 @@ class ObjectCheck {
         if (const std::string* name = materialNameOf(object); name != nullptr && !name->empty())
             small.materials[*name] = {};
         if (const auto* medium = std::get_if<MediumDesc>(&object.shape))
-            visitName(medium->albedo, [&](const std::string& name) {
+            visitTextureName(medium->albedo, [&](const std::string& name) {
                 if (scene_.textures.contains(name)) small.textures[name] = SolidTexture{};
             });
         if (const InstanceDesc* instance = instanceOf(object)) {
@@ -237,14 +208,14 @@ struct Check {
             return checkRemoval(scene.materials.contains(edit.name), materialUses(scene, edit.name), place);
         SceneDesc small;
         small.materials[edit.name] = *edit.value;
-        forEachTexture(*edit.value, [&](const std::string& name) { addTexture(small, name); });
+        forEachTextureName(*edit.value, [&](const std::string& name) { addTexture(small, name); });
         checkByReader(small, place, place);
     }
     void operator()(const SetTexture& edit) const {
         const std::string place = "/textures/" + edit.name;
         if (!edit.value) return checkRemoval(scene.textures.contains(edit.name), textureUses(scene, edit.name), place);
         SceneDesc small;
-        forEachTexture(*edit.value, [&](const std::string& name) { addTexture(small, name); });
+        forEachInnerTexture(*edit.value, [&](const std::string& name) { addTexture(small, name); });
         small.textures[edit.name] = *edit.value;
         checkByReader(small, place, place);
     }
