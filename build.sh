@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 # Debian 12, Debian 13 and Ubuntu 24.04 have all of these.
 headless_packages=(g++ cmake ninja-build pkg-config libglm-dev libspdlog-dev nlohmann-json3-dev libcli11-dev
                    libtinygltf-dev libstb-dev libjpeg-dev libpng-dev libopenexr-dev libtiff-dev libwebp-dev
-                   libdraco-dev libmeshoptimizer-dev zlib1g-dev libtbb-dev libvulkan-dev glslang-tools)
+                   libdraco-dev libmeshoptimizer-dev libpugixml-dev zlib1g-dev libtbb-dev libvulkan-dev glslang-tools)
 build_packages=("${headless_packages[@]}" libglfw3-dev libimgui-dev fonts-dejavu-core)
 test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang clang-format clang-tidy spirv-tools patch
                vulkan-validationlayers xvfb xdotool libx11-dev assimp-testmodels zsh fish groff-base

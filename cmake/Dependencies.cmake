@@ -26,8 +26,8 @@ function(rt_link_optional target scope)
 endfunction()
 
 rt_require(glm spdlog json cli11 stb tinygltf png jpeg openexr)
-# Of textures in these formats, of compressed glTF and of packed pbrt files, which can be left out.
-foreach(name IN ITEMS tiff webp draco meshoptimizer zlib)
+# Of textures in these formats, of compressed glTF, of packed pbrt files and of MaterialX, which can be left out.
+foreach(name IN ITEMS tiff webp draco meshoptimizer zlib pugixml)
     rt_find(${name})
 endforeach()
 # Of the window, which can be left out. ImGui with its backends for GLFW and Vulkan.

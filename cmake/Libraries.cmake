@@ -78,6 +78,7 @@ rt_library(tiff libtiff-dev tiff MODULE TIFF PACKAGE tiff VERSION 4.5 TARGETS TI
 rt_library(webp libwebp-dev libwebp PACKAGE WebP TARGETS WebP::webp PKGCONFIG libwebp)
 rt_library(draco libdraco-dev draco PACKAGE draco TARGETS draco::draco PKGCONFIG draco)
 rt_library(meshoptimizer libmeshoptimizer-dev meshoptimizer PACKAGE meshoptimizer TARGETS meshoptimizer::meshoptimizer)
+rt_library(pugixml libpugixml-dev pugixml PACKAGE pugixml TARGETS pugixml::pugixml pugixml PKGCONFIG pugixml)
 rt_library(zlib zlib1g-dev zlib MODULE ZLIB PACKAGE ZLIB TARGETS ZLIB::ZLIB PKGCONFIG zlib)
 rt_library(glfw libglfw3-dev glfw3 PACKAGE glfw3 TARGETS glfw PKGCONFIG glfw3)
 rt_library(imgui libimgui-dev imgui PACKAGE imgui TARGETS imgui::imgui PKGCONFIG imgui)
