@@ -41,6 +41,7 @@ constexpr double kReadingSeconds = 0.1;                         // of frames tha
 constexpr int kAnsweringFrames = 4;  // after input that may bring the keyboard elsewhere, before more is read
 constexpr int kSettlingFrames = 6;   // after the last input, likewise: windows and tables find their sizes in them
 constexpr double kLongestStep = 0.1; // seconds of flight in one frame
+constexpr std::uint32_t kScenePictureSide = 64, kMaterialPictureSide = 96; // pixels, as cmake/Thumbnails.cmake has it
 constexpr double kPresentingSeconds = 0.002; // between two looks whether a frame under way has been presented
 
 class App {
@@ -60,6 +61,7 @@ class App {
                history_,
                window_,
                thumbnails_,
+               materialPictures_,
                options.program == app::kGpuProgram,
                program.devices,
                other_,
@@ -92,7 +94,8 @@ class App {
     GraphicsDevice device_;
     Presenter presenter_;
     ImGuiLayer imgui_;
-    Thumbnails thumbnails_{device_, presenter_.renderPass()};
+    Thumbnails thumbnails_{device_, presenter_.renderPass(), "thumbnails", kScenePictureSide};
+    Thumbnails materialPictures_{device_, presenter_.renderPass(), "materials/thumbnails", kMaterialPictureSide};
     app::RunHistory history_;
     app::CameraController camera_;
     std::atomic<bool> isNews_{false}; // there is something new of the session
@@ -192,7 +195,8 @@ void App::turn() {
     const app::Stopwatch busy;
     link_.take();
     if (!dropped_.empty()) {
-        gui_.openScene(dropped_.front());
+        const std::string& file = dropped_.front();
+        isMaterialFile(file) ? (void)(gui_.materials.droppedFile = file) : gui_.openScene(file);
         dropped_.clear();
     }
     const auto [width, height] = window_.framebufferSize();
@@ -212,10 +216,14 @@ void App::turn() {
     if (std::exchange(sizes_, sizes) != sizes || gui_.browser.isSettling()) isNews_ = true;
     const auto drawInterface = [this](VkCommandBuffer commands) {
         thumbnails_.setCommands(commands);
+        materialPictures_.setCommands(commands);
         imgui_.draw(commands);
     };
     if (gui_.chartRequested) saveChart(drawInterface);
-    const auto upload = [this](VkCommandBuffer commands) { thumbnails_.upload(commands); };
+    const auto upload = [this](VkCommandBuffer commands) {
+        thumbnails_.upload(commands);
+        materialPictures_.upload(commands);
+    };
     presenting_.present({{width, height}, picture_.constants(), upload, drawInterface});
     meter_.add(busy.seconds());
     gui_.figures = meter_.figures();
@@ -263,9 +271,11 @@ void App::drawFrame(bool isShown) {
         {settings_.colorMode, settings_.uiScale * window_.monitorScale(), window_.pixelDensity(), settings_.font});
     imgui_.beginFrame(input_);
     thumbnails_.beginFrame();
+    materialPictures_.beginFrame();
     for (const InputEvent& event : input_)
         if (isKeyPress(event)) obeyKey(gui_, event);
     followEditing(gui_);
+    followMaterials(gui_);
     drawInterface();
     flying_ = fly(gui_, input_, seconds);
     gui_.isHeld = flying_ || ImGui::IsAnyMouseDown() || gui_.editing.tool;

@@ -220,6 +220,12 @@ void Gui::browse(BrowseFor what) {
         case BrowseFor::SaveScene:
             request = {"Save the scene", "Save", {".json"}, saveFolder(settings.saveFolder), "scene.json", true};
             break;
+        case BrowseFor::OpenMaterial:
+            request = {"Open materials", "Open", {".mtlx"}, {}, ""};
+            break;
+        case BrowseFor::SaveMaterial:
+            request = {"Save the material", "Save", {".mtlx"}, saveFolder(settings.saveFolder), "material.mtlx", true};
+            break;
     }
     browser.open(std::move(request));
 }
@@ -238,7 +244,11 @@ void Gui::take(const std::filesystem::path& file) {
         case BrowseFor::Export:
             return exporting.start(state.source, state.moment, assetsBelow, file.string());
         case BrowseFor::SaveScene:
-            editor.save(file.string());
+            return editor.save(file.string());
+        case BrowseFor::OpenMaterial:
+            return openMaterials(*this, file.string());
+        case BrowseFor::SaveMaterial:
+            saveMaterial(*this, file.string());
     }
 }
 

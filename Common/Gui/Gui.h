@@ -18,6 +18,7 @@
 #include "Common/Gui/FrameTimer.h"
 #include "Common/Gui/Inspector.h"
 #include "Common/Gui/Layout.h"
+#include "Common/Gui/MaterialTools.h"
 #include "Common/Gui/PinnedView.h"
 #include "Common/Gui/RunBoard.h"
 #include "Common/Gui/SceneEditing.h"
@@ -33,7 +34,7 @@ struct PictureView {
 };
 
 // What the file browser is open for.
-enum class BrowseFor { Scene, Reference, Picture, Export, SaveScene };
+enum class BrowseFor { Scene, Reference, Picture, Export, SaveScene, OpenMaterial, SaveMaterial };
 
 // Members that are not const are for the parts to change; App sends what has changed.
 struct Gui {
@@ -42,7 +43,8 @@ struct Gui {
     app::CameraController& camera;
     app::RunHistory& history;
     Window& window;
-    Thumbnails& thumbnails;
+    Thumbnails& thumbnails;       // of the built-in scenes
+    Thumbnails& materialPictures; // of the library of materials
     const bool isGpu;
     const std::vector<app::EngineDevice> devices; // of ray-tracing-gpu, those that are suitable
     app::OtherEngine& other;
@@ -51,6 +53,7 @@ struct Gui {
 
     app::SessionState state; // of this frame
     SceneEditing editing;
+    MaterialTools materials;
     Rect shownImage; // the whole picture's, in the window's units
     PictureView view;
     app::ViewRequest viewRequest;

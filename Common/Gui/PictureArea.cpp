@@ -186,7 +186,9 @@ void PictureArea::handlePointer() {
     drawGrid();
     const std::optional<Pixel> pixel = inside ? pixelUnderPointer() : std::nullopt;
     inspect(pixel);
-    if (gui_.editing.tool || gripGizmo(gui_, imageRect(), inside)) return handleTool(pixel);
+    takeMaterial();
+    const bool isPicking = gui_.materials.isPicking; // the click is for the pipette
+    if (gui_.editing.tool || (!isPicking && gripGizmo(gui_, imageRect(), inside))) return handleTool(pixel);
     select(inside, pixel);
     if (inside && io.MouseClicked[0] && (gui_.pickFocus || (io.KeyCtrl && io.KeyShift))) {
         gui_.pickFocus = false;
@@ -217,6 +219,18 @@ void PictureArea::handleTool(const std::optional<Pixel>& pixel) {
     if (isClick && pixel) pickObject(gui_, *pixel, io.KeyCtrl);
 }
 
+// One that is dragged out of the library and let go above the picture, or a file, when the pointer is where it was let
+// go. The mouse is not the picture's meanwhile.
+void PictureArea::takeMaterial() {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const bool isFile = !gui_.materials.droppedFile.empty();
+    if (isFile ? gui_.window.hasEvents() : !gui_.materials.dragged || ImGui::IsMouseDown(0)) return;
+    constexpr ImGuiHoveredFlags kAnywhere =
+        ImGuiHoveredFlags_AnyWindow | ImGuiHoveredFlags_AllowWhenBlockedByActiveItem;
+    const bool isHere = area_.contains(mouse.x, mouse.y) && !ImGui::IsWindowHovered(kAnywhere);
+    dropMaterial(gui_, isHere ? pixelUnderPointer() : std::nullopt);
+}
+
 // By a press and its release, unless the pointer has been dragged in between.
 void PictureArea::select(bool inside, const std::optional<Pixel>& pixel) {
     const ImGuiIO& io = ImGui::GetIO();
@@ -226,6 +240,7 @@ void PictureArea::select(bool inside, const std::optional<Pixel>& pixel) {
     }
     if (ImGui::IsMouseDragging(0)) isClick_ = false;
     if (!io.MouseReleased[0] || !std::exchange(isClick_, false) || !inside) return;
+    if (gui_.materials.isPicking && pixel) return pickMaterial(gui_, *pixel);
     if (pixel) return pickObject(gui_, *pixel, isAdding_);
     if (!isAdding_) deselect(gui_);
 }

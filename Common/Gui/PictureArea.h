@@ -42,6 +42,7 @@ class PictureArea {
     void inspect(const std::optional<Pixel>& pixel);
     void drag();
     void handleTool(const std::optional<Pixel>& pixel);
+    void takeMaterial();
     void select(bool inside, const std::optional<Pixel>& pixel);
     void turnWheel();
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include <GLFW/glfw3.h>
 #include <imgui.h>
@@ -92,6 +93,7 @@ bool editByKey(Gui& gui, const InputEvent& press) {
 
 // One thing at a time: what is open goes first.
 void leave(Gui& gui) {
+    if (std::exchange(gui.materials.isPicking, false)) return;
     if (!gui.showHelp && !gui.showErrors && !gui.showScenes && !ImGui::GetIO().WantTextInput) deselect(gui);
     gui.showHelp = gui.showErrors = gui.showScenes = false;
 }

@@ -3,41 +3,60 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/Paths.h"
 #include "Common/Image/ImageIo.h"
-#include "Common/Scene/Builtin/BuiltinScenes.h"
 
 namespace rt::gui {
 
-Thumbnails::Thumbnails(GraphicsDevice& device, VkRenderPass renderPass)
-    : device_(device), pass_(device, renderPass), loading_(std::async(std::launch::async, load)) {}
+namespace {
+
+namespace fs = std::filesystem;
+
+// By their names without ".png"; where several folders of assets have one of a name, that of the first.
+std::map<std::string, fs::path> picturesOf(const std::string& folder) {
+    std::map<std::string, fs::path> files;
+    for (const fs::path& assets : assetFolders()) {
+        std::error_code error;
+        for (fs::directory_iterator entry(assets / folder, error), end; !error && entry != end; entry.increment(error))
+            if (entry->path().extension() == ".png") files.try_emplace(entry->path().stem().string(), entry->path());
+    }
+    return files;
+}
+
+} // namespace
+
+Thumbnails::Thumbnails(GraphicsDevice& device, VkRenderPass renderPass, const std::string& folder, std::uint32_t side)
+    : device_(device),
+      pass_(device, renderPass),
+      side_(side),
+      loading_(std::async(std::launch::async, load, folder, side)) {}
 
 Thumbnails::~Thumbnails() {
     vkDeviceWaitIdle(device_.device());
 }
 
-Thumbnails::Sheet Thumbnails::load() {
+Thumbnails::Sheet Thumbnails::load(const std::string& folder, std::uint32_t side) {
     Sheet sheet;
     std::vector<float> pixels;
-    for (const scene::BuiltinScene& scene : scene::builtinScenes()) {
-        const std::string id(scene.id);
-        const auto file = findAsset("thumbnails/" + id + ".png");
-        if (!file) continue;
+    for (const auto& [name, file] : picturesOf(folder)) {
         try {
-            const image::Image image = image::readImage(*file);
-            if (image.width != kSide || image.height != kSide || image.channels != 3) continue;
-            sheet.places[id] = static_cast<std::uint32_t>(sheet.places.size());
+            const image::Image image = image::readImage(file);
+            if (image.width != side || image.height != side || image.channels != 3) continue;
+            sheet.places[name] = static_cast<std::uint32_t>(sheet.places.size());
             pixels.insert(pixels.end(), image.data.begin(), image.data.end());
         } catch (const Error& error) {
-            logWarning(error.what()); // the scene itself can be shown
+            logWarning(error.what()); // what it is of can be shown without
         }
     }
     if (sheet.places.empty()) return sheet;
-    sheet.image = image::Image(kSide, kSide * static_cast<std::uint32_t>(sheet.places.size()));
+    sheet.image = image::Image(side, side * static_cast<std::uint32_t>(sheet.places.size()));
     sheet.image.data = std::move(pixels);
     return sheet;
 }
@@ -56,8 +75,8 @@ void Thumbnails::upload(VkCommandBuffer commands) {
     newSheet_ = {};
 }
 
-bool Thumbnails::draw(const std::string& scene, ImVec2 corner, float side) {
-    const auto place = places_.find(scene);
+bool Thumbnails::draw(const std::string& name, ImVec2 corner, float side) {
+    const auto place = places_.find(name);
     if (place == places_.end()) return false;
     tiles_.push_back({this, place->second, corner, side});
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -84,7 +103,7 @@ void Thumbnails::record(const Tile& tile, const ImVec4& clip) const {
     const float bottom = std::min({y + side, (clip.w - origin.y) * pixels.y, height});
     if (!(right - left >= 1 && bottom - top >= 1)) return;
     PresentConstants constants;
-    constants.scale = side / static_cast<float>(kSide);
+    constants.scale = side / static_cast<float>(side_);
     constants.originX = x;
     constants.flags = kSmooth;
     constants.originY = y - static_cast<float>(tile.place) * side;

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -95,6 +96,44 @@ TEST_P(EditingTest, ABallBecomesMetalALightIsAddedAndBothAreSaved) {
     EXPECT_EQ(scene["objects"][1]["type"], "point_light");
     EXPECT_EQ(scene["materials"]["m"]["type"], "metal");
     expectCleanEnd();
+}
+
+// By a click for what is selected, and by a drag onto the ball for the ball.
+TEST_P(EditingTest, TheBallGetsMaterialsOfTheLibrary) {
+    startWithBall();
+    ASSERT_FALSE(HasFatalFailure());
+    ASSERT_TRUE(selectBall()) << log();
+    // The wheel brings what is below the fields of the ball to where it is seen.
+    const auto scrolled = [this] {
+        if (!isShown("Search materials", kSidePlace)) act("mousemove 180 500 click 5 click 5 click 5 sleep 0.5");
+        return isShown("Search materials", kSidePlace);
+    };
+    ASSERT_TRUE(clickText("Material library", kSidePlace, scrolled)) << log();
+    ASSERT_TRUE(clickText("Search materials", kSidePlace, [this] { return !isShown("Search materials"); })) << log();
+    type("gold");
+    ASSERT_TRUE(eventually([this] { return isShown("Matt gold", kSidePlace) && !isShown("Silver"); }, kSeen)) << log();
+    ASSERT_TRUE(clickText("Gold", kSidePlace, [this] { return isMarkedUnsaved(); })) << log();
+    key("ctrl+z");
+    EXPECT_TRUE(eventually([this] { return !isMarkedUnsaved(); }, kSeen)) << title();
+    const auto isDropped = [this] {
+        const std::vector<Place> from = placesOf("Matt gold", kSidePlace);
+        if (from.empty() || isMarkedUnsaved()) return isMarkedUnsaved();
+        const std::string start = std::to_string(from.front().x()) + " " + std::to_string(from.front().y());
+        const std::string end = std::to_string(kBallX) + " " + std::to_string(kBallY);
+        act("mousemove " + start + " sleep 0.3 mousedown 1 sleep 0.3 mousemove_relative 30 -20 sleep 0.3 mousemove " +
+            end + " sleep 0.5 mouseup 1 sleep 0.3");
+        pause(1500);
+        return isMarkedUnsaved();
+    };
+    ASSERT_TRUE(eventually(isDropped, kSeen)) << log();
+    key("ctrl+q");
+    ASSERT_TRUE(appears("Save them")) << log();
+    const auto isSaved = [this] { return saved().is_object() && saved()["materials"].contains("Matt gold"); };
+    ASSERT_TRUE(clickText("Save them", isSaved)) << log();
+    EXPECT_EQ(waitForEnd(), 0) << log();
+    EXPECT_EQ(saved()["objects"][0]["material"], "Matt gold");
+    EXPECT_EQ(saved()["materials"]["Matt gold"]["metallic"], 1);
+    EXPECT_FALSE(saved()["materials"].contains("Gold")) << "taken back";
 }
 
 // By keys alone from where the ball is selected; whoever closes the window is asked.

@@ -9,6 +9,7 @@ void drawObjectTree(Gui& gui);
 void drawObjectFields(Gui& gui, const scene::ObjectPath& path);
 void drawMaterialFields(Gui& gui, const scene::ObjectPath& path);
 void drawSkyFields(Gui& gui);
+void drawMaterialLibrary(Gui& gui);
 
 // A colour of linear components; one beyond 1 is divided by its largest, which is a field of its own.
 bool inputColor(const char* label, const char* tip, glm::dvec3& color);

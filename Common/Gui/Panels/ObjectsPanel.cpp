@@ -183,6 +183,7 @@ void drawObjectsPanel(Gui& gui) {
     drawGizmoRow(gui);
     drawObjectTree(gui);
     if (gui.editor.selection()) drawSelectionPart(gui);
+    if (ImGui::CollapsingHeader("Material library")) drawMaterialLibrary(gui);
     if (ImGui::CollapsingHeader("Sky")) drawSkyFields(gui);
     const scene::CameraDesc& view = gui.camera.camera();
     if (button("View to scene", "What is seen now becomes the scene's own camera",
