@@ -30,7 +30,8 @@ rt_module(accel rt-accel Common/Accel AccelInput AccelView Box Build/BvhBuilder 
 rt_module(image rt-image Common/Image Convergence Denoise/Denoiser Display ErrorEstimate Film FilmTiles Flip Image
           ImageIo ImageRows Metrics Statistics)
 rt_module(scene rt-scene Common/Scene Affine Boxed Builtin/BuiltinScenes Builtin/SceneBuilder CameraRecord CompiledScene
-          Compiler/Bounds Compiler/SceneCompiler FramingCamera Gltf/GltfLoader Json/SceneJson Moment Obj/ObjLoader
+          Compiler/Bounds Compiler/SceneCompiler FramingCamera Gltf/GltfLoader Json/SceneJson
+          MaterialX/MaterialXLoader MaterialX/MaterialXWriter Moment Obj/ObjLoader
           Origins Pbrt/PbrtLoader SceneDesc Silhouettes Studio)
 rt_module(render rt-render Common/Render Engine FilmEstimate FilmRun ForwardingEngine Names PictureDenoiser Progress
           RenderParams Settings Stopwatch)

@@ -17,6 +17,7 @@
 #include "Common/Image/ImageIo.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/Json/SceneJson.h"
+#include "Common/Scene/MaterialX/MaterialXModels.h"
 #include "tests/unit/GltfBuilder.h"
 
 namespace {
@@ -79,6 +80,54 @@ void writePbrt(const Seeds& seeds) {
          {"[", "]", "\\\"float alpha\\\"", "\\\"a.ply\\\"", "binary_little_endian", "1e300", "-1", "2147483647"})
         words.insert(word);
     seeds.writeWords("pbrt", words);
+}
+
+// Each surface with all of its inputs, some from images by way of a graph.
+void writeMaterialX(const Seeds& seeds) {
+    std::set<std::string> words = {"value",        "nodename", "nodegraph", "interfacename", "output",
+                                   "srgb_texture", "1, 2, 3",  "color3",    "color4",        "float",
+                                   "vector2",      "multiply", "invert",    "extract",       "constant"};
+    const std::string graph =
+        "<nodegraph name=\"G\"><input name=\"t\" type=\"vector2\" value=\"2, 3\"/><tiledimage name=\"i\" "
+        "type=\"color3\"><input name=\"file\" type=\"filename\" value=\"i.png\"/><input name=\"uvtiling\" "
+        "type=\"vector2\" interfacename=\"t\"/></tiledimage><extract name=\"e\" type=\"float\"><input name=\"in\" "
+        "type=\"color3\" nodename=\"i\"/><input name=\"index\" type=\"integer\" value=\"1\"/></extract><output "
+        "name=\"o\" type=\"float\" nodename=\"e\"/></nodegraph>";
+    for (const rt::scene::MaterialXModel& model : rt::scene::materialXModels()) {
+        std::string inputs;
+        for (const rt::scene::MaterialXInput& input : {model.base,
+                                                       model.baseColor,
+                                                       model.metallic,
+                                                       model.roughness,
+                                                       model.ior,
+                                                       model.transmission,
+                                                       model.transmissionColor,
+                                                       model.transmissionDepth,
+                                                       model.subsurface,
+                                                       model.sheen,
+                                                       model.sheenColor,
+                                                       model.coat,
+                                                       model.coatColor,
+                                                       model.emission,
+                                                       model.emissionColor,
+                                                       model.opacity,
+                                                       model.thin,
+                                                       model.normal,
+                                                       model.alphaMode,
+                                                       model.thickness,
+                                                       model.attenuationDistance}) {
+            if (input.name == nullptr) continue;
+            words.insert(input.name);
+            inputs += std::string("<input name=\"") + input.name + "\" type=\"float\" value=\"0.5\"/>";
+        }
+        inputs += std::string("<input name=\"") + model.specular.name + "\" nodegraph=\"G\" output=\"o\"/>";
+        seeds.write("materialx", model.node,
+                    "<materialx version=\"1.38\">" + graph + "<" + model.node + " name=\"S\">" + inputs + "</" +
+                        model.node +
+                        "><surfacematerial name=\"M\"><input name=\"surfaceshader\" "
+                        "nodename=\"S\"/></surfacematerial></materialx>");
+    }
+    seeds.writeWords("materialx", words);
 }
 
 std::string base64(const std::string& bytes) {
@@ -258,6 +307,7 @@ int main(int argc, char** argv) {
         writeScenes(seeds);
         writeMeshes(seeds);
         writePbrt(seeds);
+        writeMaterialX(seeds);
         writeGltf(seeds);
         writeTexts(seeds);
     });
