@@ -8,7 +8,8 @@ namespace {
 
 void gatherSurfaces(const ObjectDesc& object, const ObjectPath& path, std::vector<ObjectPath>& surfaces) {
     if (const auto* group = std::get_if<GroupDesc>(&object.shape)) {
-        for (std::size_t i = 0; i < group->objects.size(); ++i) gatherSurfaces(group->objects[i], path.child(i), surfaces);
+        for (std::size_t i = 0; i < group->objects.size(); ++i)
+            gatherSurfaces(group->objects[i], path.child(i), surfaces);
     } else if (materialNameOf(object) != nullptr) {
         surfaces.push_back(path);
     }
