@@ -72,7 +72,7 @@ TEST_P(PrincipledCases, WhiteFurnaceIsWhite) {
             const Bsdf b = bsdfOf(principledOf(GetParam(), roughness), vec3(1), wo);
             Mean mean;
             for (int i = 0; i < 1 << 14; ++i) mean.add(double(drawFrom(b, wo, uniform.pair()).weight.x));
-            // The table of stretched facets is coarser, and films are bounded by the channel of which they reflect most.
+            // The table of stretched facets is coarser; films are bounded by the channel of which they reflect most.
             const bool isBounded = GetParam().anisotropy > 0 || GetParam().film > 0;
             const double least = isBounded ? 0.93 : 0.988;
             const double most = isBounded ? 1.001 : 1.012;

@@ -23,8 +23,8 @@ RT_FN vec3 compensation(vec3 f0, float whole) {
 
 // ---- thin films ----------------------------------------------------------------------------------------------------
 
-// Reflectances at normal and at grazing incidence of a dielectric and of metal, as a film leaves them; and what it makes
-// of the reflectance R of glass: glassScale R + glassOffset.
+// Reflectances at normal and at grazing incidence of a dielectric and of metal, as a film leaves them; and what it
+// makes of the reflectance R of glass: glassScale R + glassOffset.
 struct Film {
     vec3 f0;
     vec3 f90;
@@ -66,9 +66,9 @@ RT_FN float glassScale(float filmed, float bare) {
     return bare > 0.0f && bare < 1.0f ? filmed / bare : 1.0f;
 }
 
-// The film of these values over the reflectances `bare`. Its colour is that of the direction wo, of this cosine, for all
-// facets: what tables know about Schlick's approximation then bounds what is sent out. A smooth surface has no other.
-// Glass from inside reflects as from outside, along the refracted ray; eta is as of PrincipledLobes.
+// The film of these values over the reflectances `bare`. Its colour is that of the direction wo, of this cosine, for
+// all facets: what tables know about Schlick's approximation then bounds what is sent out. A smooth surface has no
+// other. Glass from inside reflects as from outside, along the refracted ray; eta is as of PrincipledLobes.
 RT_FN Film filmOf(RT_IN(PrincipledValues) values, RT_IN(Film) bare, float cosine, float eta, bool inside) {
     vec2 glass = fresnel(cosine, eta);
     float outside = inside ? glass.y : cosine;
@@ -94,10 +94,10 @@ RT_FN Film filmOf(RT_IN(PrincipledValues) values, RT_IN(Film) bare, float cosine
     return film;
 }
 
-// What filmed solid glass reflects and transmits in all, at most: `reflection` is the albedo of facets that reflect all,
-// `whole` that of the glass without a film, `bare` what it reflects of the direction wo. Where the film reflects more, so
-// much of it reflects all. Where it reflects less, what bare facets reflect is transmitted, and less of it is lost; they
-// reflect twice what a flat surface does, at most.
+// What filmed solid glass reflects and transmits in all, at most: `reflection` is the albedo of facets that reflect
+// all, `whole` that of the glass without a film, `bare` what it reflects of the direction wo. Where the film reflects
+// more, so much of it reflects all. Where it reflects less, what bare facets reflect is transmitted, and less of it is
+// lost; they reflect twice what a flat surface does, at most.
 RT_FN float filmedAlbedo(RT_IN(Film) film, float reflection, float whole, float bare) {
     vec3 part = film.glassScale + film.glassOffset;
     float transmitted = 1.0f - min(part.x, min(part.y, part.z));

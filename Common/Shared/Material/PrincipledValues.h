@@ -160,8 +160,8 @@ RT_FN void addDiffuseTransmission(Features features, SceneRef scene, RT_IN(Princ
     if (values.rare.beyond > 0.0f) values.others |= kLobeBeyond;
 }
 
-// What few materials have. `n` is the normal that facets lie about, on the side that is seen; `facing` is 1 on the front
-// and -1 on the back.
+// What few materials have. `n` is the normal that facets lie about, on the side that is seen; `facing` is 1 on the
+// front and -1 on the back.
 RT_FN void addRareValues(Features features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 n, float facing,
                          RT_INOUT(PrincipledValues) values) {
     addAnisotropy(features, scene, p, s, n, facing, values);
