@@ -32,7 +32,7 @@ class EditingTest : public WindowTest {
     void startWithBall() { startWith(writeScene("ball.json", "Ball")); }
     // Three of them in a row.
     void startWithThreeBalls() {
-        nlohmann::json scene = nlohmann::json::parse(std::ifstream(writeScene("balls.json", "Balls")));
+        nlohmann::json scene = nlohmann::json::parse(std::ifstream(writeScene("balls.json", "Ball")));
         nlohmann::json ball = scene["objects"][0];
         ball["radius"] = 0.5;
         scene["objects"].clear();

@@ -41,6 +41,9 @@ TEST_F(GuiSettingsTest, SurviveTheFile) {
     s.request.targetError = 0.01;
     s.engine.policy = Policy::Seq;
     s.rayTracing = false;
+    s.showGizmo = false;
+    s.gizmo = ObjectTool::Kind::Turn;
+    s.localAxes = true;
     s.openPanels = {{"scene", false}, {"view", true}, {"of_a_newer_version", true}};
     s.engine.threads = 3;
     s.engine.kind = GpuEngineKind::Compute;
