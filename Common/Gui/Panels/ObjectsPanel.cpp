@@ -135,7 +135,7 @@ void drawGizmoRow(Gui& gui) {
     }
     const char* tip = settings.localAxes ? "X, Y and Z are the object's own; click for those of the scene"
                                          : "X, Y and Z are those of the scene; click for the object's own";
-    if (litButton(settings.localAxes ? "Local axes" : "World axes", tip, settings.localAxes, width))
+    if (litButton(settings.localAxes ? "Local" : "World", tip, settings.localAxes, width))
         settings.localAxes = !settings.localAxes;
 }
 
