@@ -43,6 +43,14 @@ std::vector<std::string> flagsFor(const RenderSettings& settings, const fs::path
     return list;
 }
 
+void checkEnd(const std::string& program, int exitCode, const fs::path& messages) {
+    if (exitCode == 0) return;
+    const std::string line = lastLine(textOf(messages));
+    if (exitCode <= 128 && !line.empty()) throw RenderError(line);
+    throw RenderError(program + ": ended by itself, exit code " + std::to_string(exitCode) +
+                      (line.empty() ? "" : ": " + line));
+}
+
 std::string textOf(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     std::ostringstream text;

@@ -15,6 +15,9 @@ std::filesystem::path programFile(const std::string& name, const std::filesystem
 std::vector<std::string> flagsFor(const RenderSettings& settings, const std::filesystem::path& picture,
                                   const std::filesystem::path& statistics);
 
+// Throws RenderError where a program has not ended well, with what it said last in its messages.
+void checkEnd(const std::string& program, int exitCode, const std::filesystem::path& messages);
+
 std::string textOf(const std::filesystem::path& file); // empty where there is none
 std::string lastLine(const std::string& text);         // that is not empty
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "Common/App/Options/OptionValues.h"
+#include "Common/App/Session/SceneSource.h"
 #include "Common/Render/Names.h"
 #include "Common/Shared/Base/Features.h"
 
@@ -23,6 +24,12 @@ void setEngine(Config& config, Text value) {
     if (std::find(std::begin(kEngines), std::end(kEngines), value) == std::end(kEngines))
         refuseValue("engine", value, alternatives({std::begin(kEngines), std::end(kEngines)}));
     config.engine = value;
+}
+
+// The name of one, which only the scene knows, or a pose.
+void setCamera(Config& config, Text value) {
+    if (isPose(value)) poseOf(value, {});
+    config.camera = value;
 }
 
 void setFeatures(Config& config, Text value) {
@@ -51,6 +58,7 @@ constexpr Axis method() {
 
 constexpr Axis kAxes[] = {
     {"scene", Says::Where, [](const Config& c) { return c.scene; }, [](Config& c, Text value) { c.scene = value; }},
+    {"camera", Says::Where, [](const Config& c) { return c.camera; }, setCamera},
     {"engine", Says::Where, [](const Config& c) { return c.engine; }, setEngine},
     {"threads", Says::Where, [](const Config& c) { return std::to_string(c.threads); },
      [](Config& c, Text value) { c.threads = parseWhole("threads", value, 0, kMaxThreads); }},

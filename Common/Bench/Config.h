@@ -15,6 +15,7 @@ enum class Denoise { Off, On, Live, Oidn };
 
 struct Config {
     std::string scene = "cornell-box-lights"; // id or file
+    std::string camera;                       // as --camera takes it; empty: the scene's own
     std::string engine = "multi";
     std::uint32_t threads = 0; // CPU engines: 0 means all; of a rank, where there are several
     bool imported = false;     // a picture of another program, whose name is `engine`; its method is not known

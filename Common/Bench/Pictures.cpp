@@ -39,8 +39,8 @@ Image shown(const Image& radiance) {
 std::string captionOf(const Experiment& experiment, const Config& config) {
     if (config.imported) return config.engine;
     std::string text;
-    for (const auto& [axis, values] : experiment.values)
-        if (values.size() > 1 && axis->name != "scene") text += (text.empty() ? "" : ", ") + axis->get(config);
+    for (const Axis& axis : axes())
+        if (varies(experiment, axis) && axis.name != "scene") text += (text.empty() ? "" : ", ") + axis.get(config);
     return text.empty() ? config.engine : text;
 }
 

@@ -75,6 +75,7 @@ std::vector<std::string> rankArguments(const RankLauncher& launcher, const fs::p
     std::vector<std::string> list = {"-n", std::to_string(config.ranks)};
     list.insert(list.end(), launcher.settings.begin(), launcher.settings.end());
     list.insert(list.end(), {program.string(), "--no-config", "--quiet", "--scene", config.scene});
+    if (!config.camera.empty()) list.insert(list.end(), {"--camera", config.camera});
     app::RenderSettings settings = config.settings;
     settings.spp = spp;
     settings.seed = seed;

@@ -23,7 +23,7 @@ Json orNull(const Figure& figure) {
 }
 
 bool isWhole(const std::string& text) {
-    return text.find_first_not_of("0123456789") == std::string::npos;
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
 void putConfig(Json& json, const Config& config) {

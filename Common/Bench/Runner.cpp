@@ -39,11 +39,8 @@ std::string describe(const Experiment& experiment, const Config& config) {
     if (config.imported) return config.scene + ", " + config.engine;
     std::string text;
     for (const Axis& axis : axes()) {
-        const auto varied = std::find_if(experiment.values.begin(), experiment.values.end(), [&](const auto& entry) {
-            return entry.first == &axis && entry.second.size() > 1;
-        });
         const bool always = axis.name == "scene" || axis.name == "engine";
-        if (always || varied != experiment.values.end()) text += (text.empty() ? "" : ", ") + axis.get(config);
+        if (always || varies(experiment, axis)) text += (text.empty() ? "" : ", ") + axis.get(config);
     }
     return text;
 }
@@ -107,7 +104,7 @@ class SuiteRunner {
     void measureDeviceRate(Config config);
     void measureOnce(const Experiment& experiment, Measured& measured, std::uint32_t repeat);
     Ladder ladderFor(const Experiment& experiment, const Config& config);
-    void loadScene(const std::string& source);
+    void loadScene(const std::string& source, const std::string& camera);
     const image::Reference* provideReference(const Group& group, std::vector<std::vector<Row>>& rows);
 
     const Suite& suite_;
@@ -117,8 +114,8 @@ class SuiteRunner {
     const std::atomic<bool>& stop_;
     Results results_;
 
-    std::vector<Measured> imported_; // of the suite's one picture
-    std::string sceneSource_;        // of scene_
+    std::vector<Measured> imported_;        // of the suite's one picture
+    std::string sceneSource_, sceneCamera_; // of scene_
     std::shared_ptr<const scene::CompiledScene> scene_;
     double secondsLoad_ = 0;
     std::map<std::pair<std::string, std::string>, Figure> ceilings_; // rays/s by scene and kind of engine
@@ -155,14 +152,15 @@ void SuiteRunner::readScenes() {
 
 // Tests and benchmarks use the generated assets even where the user has others, so that figures compare across
 // machines.
-void SuiteRunner::loadScene(const std::string& source) {
-    if (source == sceneSource_) return;
+void SuiteRunner::loadScene(const std::string& source, const std::string& camera) {
+    if (source == sceneSource_ && camera == sceneCamera_) return;
     engines_.clear();
     sceneSource_.clear();
     const app::Stopwatch watch;
-    scene_ = app::compile(app::loadScene(source), true, true);
+    scene_ = app::compile(app::loadScene(source), true, true, camera);
     secondsLoad_ = watch.seconds();
     sceneSource_ = source;
+    sceneCamera_ = camera;
     const std::pair key(source, std::string("multi"));
     if (hooks_.rayCeiling && !stop_ && !ceilings_.count(key)) ceilings_[key] = hooks_.rayCeiling(*scene_);
 }
@@ -181,7 +179,7 @@ bool SuiteRunner::hasLibrary() {
 std::vector<SuiteRunner::Group> SuiteRunner::groupsOf(const Experiment& experiment) {
     std::vector<Group> groups;
     const auto imageOf = [](const Config& c) {
-        return std::tuple(c.scene, c.settings.width, c.settings.height, c.settings.maxDepth);
+        return std::tuple(c.scene, c.camera, c.settings.width, c.settings.height, c.settings.maxDepth);
     };
     const std::uint32_t threads = std::max(1u, std::thread::hardware_concurrency());
     for (const Config& config : combinations(experiment, threads)) {
@@ -228,7 +226,7 @@ void SuiteRunner::runExperiment(const Experiment& experiment) {
 }
 
 void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
-    loadScene(group.scene);
+    loadScene(group.scene, group.measured.front().config.camera);
     for (Measured& measured : group.measured) {
         measured.secondsLoad = secondsLoad_;
         measured.config.settings.height = heightOf(measured.config.settings, scene_->defaults.aspect);
@@ -316,13 +314,17 @@ void SuiteRunner::measureOnce(const Experiment& experiment, Measured& measured, 
     }
     const std::vector<Snapshot>& snapshots = measured.runs.back().snapshots;
     const std::size_t wanted = ladder.spp.size() + ladder.seconds.size();
+    const double longest = ladder.seconds.empty() ? experiment.maxSeconds : ladder.seconds.back();
     if (snapshots.empty()) {
         if (!stop_)
-            notice(what + ": nothing within " + (wanted == 0 ? "its max_spp" : format("%g s", experiment.maxSeconds)) +
-                   ".");
+            notice(what + ": nothing within " +
+                   (wanted == 0 ? "its max_spp" : format("%g s", std::min(experiment.maxSeconds, longest))) + ".");
         return;
     }
     const Snapshot& last = snapshots.back();
+    if (last.spp == 0)
+        notice(what + ": no whole picture within " + format("%g s", last.timeBudget.value_or(last.seconds)) +
+               ", so that its error is not known.");
     hooks_.say(what + ": " + std::to_string(last.spp) + " spp in " + format("%.3g s", last.seconds) + ", " +
                format("%.3g M samples/s", static_cast<double>(last.samples) / last.seconds * 1e-6));
     if (snapshots.size() < wanted && !stop_)

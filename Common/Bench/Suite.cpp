@@ -29,6 +29,7 @@ void forOneOrMore(const JsonNode& node, Function function) {
 }
 
 std::string textOf(const JsonNode& node) {
+    if (node.value().is_object()) return node.value().dump(); // the pose of a camera
     if (node.value().is_boolean()) return node.boolean() ? "on" : "off";
     return node.value().is_number() ? node.value().dump() : node.string();
 }
@@ -77,8 +78,20 @@ constexpr NamedSuite kSuites[] = {
 #include <NamedSuites.inc> // Assets/bench/*.json
 };
 
-constexpr const char* kExperimentKeys[] = {"name",  "title",  "spp",     "seconds",     "repeats",
-                                           "error", "images", "max_spp", "max_seconds", "baseline"};
+constexpr const char* kExperimentKeys[] = {"name",   "title",   "spp",         "seconds",  "repeats", "error",
+                                           "images", "max_spp", "max_seconds", "baseline", "variants"};
+
+// Values of axes, in the order of the table.
+Experiment::Variant readVariant(const JsonNode& node) {
+    Experiment::Variant variant;
+    node.forEachMember([&](const std::string& name, const JsonNode& value) {
+        const Axis* axis = findAxis(name);
+        if (axis == nullptr) value.fail("no such axis");
+        variant.emplace_back(axis, axisValue(value, *axis));
+    });
+    std::sort(variant.begin(), variant.end());
+    return variant;
+}
 
 void readKeys(const JsonNode& node, Experiment& experiment) {
     if (const auto spp = node.find("spp"))
@@ -96,11 +109,32 @@ void readKeys(const JsonNode& node, Experiment& experiment) {
             experiment.maxSpp[engineName(engine, value)] = wholeWithin(value, 1, 0x7fffffffu);
         });
     if (const auto baseline = node.find("baseline"))
-        baseline->forEachMember([&](const std::string& name, const JsonNode& value) {
-            const Axis* axis = findAxis(name);
-            if (axis == nullptr) value.fail("no such axis");
-            experiment.baseline[axis] = axisValue(value, *axis);
-        });
+        for (const auto& [axis, value] : readVariant(*baseline)) experiment.baseline[axis] = value;
+}
+
+// Each has a value for every axis that one of them names, and no other part of the experiment has one.
+void readVariants(const JsonNode& node, Experiment& experiment) {
+    const auto list = node.find("variants");
+    if (!list) return;
+    list->forEachElement([&](const JsonNode& element) {
+        Experiment::Variant variant = readVariant(element);
+        for (const auto& [axis, value] : variant)
+            if (node.has(std::string(axis->name).c_str()))
+                element.at(std::string(axis->name).c_str()).fail("is an axis of the experiment as well");
+        const auto isSameAxis = [](const auto& a, const auto& b) { return a.first == b.first; };
+        if (!experiment.variants.empty() &&
+            !std::equal(variant.begin(), variant.end(), experiment.variants.front().begin(),
+                        experiment.variants.front().end(), isSameAxis))
+            element.fail("must name the same axes as the first one");
+        experiment.variants.push_back(std::move(variant));
+    });
+    if (experiment.variants.empty()) list->fail("must not be empty");
+    const bool isHalved = !experiment.spp.empty() && experiment.spp.front() < 2;
+    for (const auto& [axis, value] : experiment.variants.front()) {
+        if (axis->name == "ranks") list->fail("ranks are no part of variants");
+        if (axis->name == "denoise" && isHalved)
+            list->fail("denoise needs two halves of the samples: spp of 2 or more");
+    }
 }
 
 std::string axisNames() {
@@ -126,6 +160,7 @@ Experiment readExperiment(const JsonNode& node) {
     std::sort(experiment.values.begin(), experiment.values.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
     readKeys(node, experiment);
+    readVariants(node, experiment);
     if (const auto ranks = node.find("ranks"); ranks && !experiment.seconds.empty())
         ranks->fail("needs spp: ranks are not stopped after seconds");
     if (const auto denoise = node.find("denoise")) {
@@ -216,6 +251,17 @@ Suite loadSuite(const std::string& nameOrFile) {
     return parseSuite(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), nameOrFile);
 }
 
+bool varies(const Experiment& experiment, const Axis& axis) {
+    const auto isOf = [&axis](const auto& entry) { return entry.first == &axis; };
+    const auto varied = std::find_if(experiment.values.begin(), experiment.values.end(), isOf);
+    if (varied != experiment.values.end()) return varied->second.size() > 1;
+    std::set<std::string> values;
+    for (const Experiment::Variant& variant : experiment.variants)
+        if (const auto value = std::find_if(variant.begin(), variant.end(), isOf); value != variant.end())
+            values.insert(value->second);
+    return values.size() > 1;
+}
+
 void replaceScenes(Suite& suite, const std::vector<std::string>& scenes) {
     for (Experiment& experiment : suite.experiments) valuesOf(experiment, "scene") = scenes;
 }
@@ -231,7 +277,9 @@ void restrictEngines(Suite& suite, const std::vector<std::string>& engines) {
 }
 
 std::vector<Config> combinations(const Experiment& experiment, std::uint32_t hardwareThreads) {
-    std::vector<Config> configs(1);
+    std::vector<Config> configs(std::max<std::size_t>(1, experiment.variants.size()));
+    for (std::size_t i = 0; i < experiment.variants.size(); ++i)
+        for (const auto& [axis, value] : experiment.variants[i]) axis->set(configs[i], value);
     for (const auto& [axis, values] : experiment.values) {
         std::vector<Config> more;
         for (const Config& config : configs)

@@ -16,12 +16,14 @@ struct Experiment {
     std::string name;
     std::string title;
     std::vector<std::pair<const Axis*, std::vector<std::string>>> values; // axes not named have their default
-    std::vector<std::uint32_t> spp;                                       // ascending; either these
-    std::vector<double> seconds;                                          // ascending; or these, of sampling
-    std::uint32_t repeats = 1;                                            // runs of each, with seeds 0, 1, ...
-    bool error = true;                                                    // compare with a reference
-    bool images = true;                                                   // show them in the report
-    std::map<std::string, std::uint32_t> maxSpp;                          // by engine: leave out what is above
+    using Variant = std::vector<std::pair<const Axis*, std::string>>;     // values of some axes that belong together
+    std::vector<Variant> variants;               // instead of every combination of their axes; empty: none
+    std::vector<std::uint32_t> spp;              // ascending; either these
+    std::vector<double> seconds;                 // ascending; or these, of sampling
+    std::uint32_t repeats = 1;                   // runs of each, with seeds 0, 1, ...
+    bool error = true;                           // compare with a reference
+    bool images = true;                          // show them in the report
+    std::map<std::string, std::uint32_t> maxSpp; // by engine: leave out what is above
     double maxSeconds = 600;                     // of sampling in one run; what would take longer is left out
     std::map<const Axis*, std::string> baseline; // row to compare with: the same but for these; empty: none
 };
@@ -61,6 +63,9 @@ std::span<const NamedSuite> namedSuites();
 
 // One of namedSuites() or a .json file. Throws InputError.
 Suite loadSuite(const std::string& nameOrFile);
+
+// Whether its configurations differ in that axis.
+bool varies(const Experiment& experiment, const Axis& axis);
 
 // Runs every experiment on these scenes instead of its own, or on these engines only.
 void replaceScenes(Suite& suite, const std::vector<std::string>& scenes);

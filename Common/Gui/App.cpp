@@ -81,7 +81,7 @@ class App {
     void turn();
     void readInput();
     void save();
-    void saveChart(const std::function<void(VkCommandBuffer)>& drawInterface);
+    void savePart(const std::function<void(VkCommandBuffer)>& drawInterface);
     void drawFrame(bool isShown);
     void drawInterface();
     bool askBeforeClosing();
@@ -219,7 +219,7 @@ void App::turn() {
         materialPictures_.setCommands(commands);
         imgui_.draw(commands);
     };
-    if (gui_.chartRequested) saveChart(drawInterface);
+    if (gui_.partToSave) savePart(drawInterface);
     const auto upload = [this](VkCommandBuffer commands) {
         thumbnails_.upload(commands);
         materialPictures_.upload(commands);
@@ -247,16 +247,16 @@ void App::save() {
     session_.save(std::move(request));
 }
 
-void App::saveChart(const std::function<void(VkCommandBuffer)>& drawInterface) {
-    gui_.chartRequested = false;
-    const std::string file = (saveFolder(settings_.saveFolder) / "ray-tracing-errors.png").string();
+void App::savePart(const std::function<void(VkCommandBuffer)>& drawInterface) {
+    const SavedPart saved = *std::exchange(gui_.partToSave, std::nullopt);
+    const std::string file = saved.file.string();
     const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale, size = ImGui::GetIO().DisplaySize;
     const VkExtent2D extent{static_cast<std::uint32_t>(size.x * pixels.x),
                             static_cast<std::uint32_t>(size.y * pixels.y)};
-    const Rect chart{gui_.chart.x * pixels.x, gui_.chart.y * pixels.y, gui_.chart.width * pixels.x,
-                     gui_.chart.height * pixels.y};
+    const Rect part{saved.part.x * pixels.x, saved.part.y * pixels.y, saved.part.width * pixels.x,
+                    saved.part.height * pixels.y};
     try {
-        image::writeImage(file, takeSnapshot(device_, presenter_.format(), extent, chart, drawInterface));
+        image::writeImage(file, takeSnapshot(device_, presenter_.format(), extent, part, drawInterface));
         gui_.say("Saved " + file);
     } catch (const Error& error) {
         gui_.fail(error.what(), app::ErrorSource::Save);

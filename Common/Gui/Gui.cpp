@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "Common/App/Interactive/FilmFiles.h"
+#include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/Printable.h"
@@ -46,7 +47,7 @@ void Gui::hold() {
 
 // A film that was stopped early is of the samples that it has.
 std::optional<app::RunRecord> Gui::workInView() const {
-    if (!state.scene || state.picture.isPreview) return std::nullopt;
+    if (!state.scene || state.picture.isPreview || state.picture.isOfRace) return std::nullopt;
     app::RunRecord work =
         app::recordOfWork(*state.scene, settings.request.oneSidedLights, camera.camera(), state.settings);
     work.app = isGpu ? app::kGpuProgram : app::kCpuProgram;
@@ -133,6 +134,27 @@ void Gui::pastePose() {
     }
 }
 
+void Gui::toggleComparison() {
+    settings.showComparison = !settings.showComparison;
+    if (settings.showComparison) settings.showRace = false;
+}
+
+void Gui::toggleRace() {
+    settings.showRace = !settings.showRace;
+    if (settings.showRace) settings.showComparison = false;
+}
+
+void Gui::saveText(const std::filesystem::path& file, const std::string& text) {
+    try {
+        AtomicFile target(file);
+        target.stream() << text;
+        target.commit();
+        say("Saved " + file.string());
+    } catch (const Error& error) {
+        fail(error.what(), app::ErrorSource::Save);
+    }
+}
+
 // Off, rays, time where that is known, off.
 void Gui::toggleHeatMap() {
     if (!state.canShowCost) return;
@@ -178,6 +200,8 @@ void Gui::scaleInterface(float change) {
 
 std::string Gui::pictureTitle() const {
     if (state.picture.isPreview) return "preview";
+    if (state.picture.isOfRace && state.race)
+        return state.race->lanes[state.race->shown].name + ", " + std::to_string(state.picture.spp) + " spp";
     std::string title = (isGpu ? "GPU, " : "CPU, ") + std::to_string(state.picture.spp) + " spp";
     const bool isOfPicture = !state.picture.isDisplay || viewRequest.mode == app::ViewMode::Error;
     if (state.picture.isDenoised && isOfPicture) title += ", denoised";

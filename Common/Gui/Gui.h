@@ -36,6 +36,19 @@ struct PictureView {
 // What the file browser is open for.
 enum class BrowseFor { Scene, Reference, Picture, Export, SaveScene, OpenMaterial, SaveMaterial };
 
+// A part of the window, in its units, and the file that it is to be saved to.
+struct SavedPart {
+    Rect part;
+    std::filesystem::path file;
+};
+
+// What is to be raced next.
+struct RaceForm {
+    std::vector<app::RaceEntrant> entrants; // none: they have not been chosen yet
+    std::optional<std::size_t> shown;       // whose picture; none: who leads
+    Rect chart;                             // with the headline above it
+};
+
 // Members that are not const are for the parts to change; App sends what has changed.
 struct Gui {
     app::InteractiveSession& session;
@@ -75,7 +88,8 @@ struct Gui {
     bool otherIsWanted = false;                // as soon as this render has ended
     std::uint64_t otherSerial = 0;             // of the picture of the other program that was pinned
     Rect chart;                                // of the comparison, in the window's units
-    bool chartRequested = false;               // as a file
+    std::optional<SavedPart> partToSave;       // of the window, as a file
+    RaceForm race;
     UiFigures figures;
     bool showHelp = false;
     std::string revealPanel;  // id of one to bring to where it is seen
@@ -108,6 +122,9 @@ struct Gui {
     void pastePose();
     app::SavedPicture savedPicture() const; // what a file gets: of a film without halves the raw one
     void toggleHeatMap();
+    void toggleComparison(); // it and the race have one place
+    void toggleRace();
+    void saveText(const std::filesystem::path& file, const std::string& text);
     void toggleStatistics();
     void setRayTracing(bool on); // where there is a preview to show instead
     void scaleInterface(float change);

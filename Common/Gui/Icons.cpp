@@ -107,6 +107,13 @@ void drawIcon(ImDrawList& list, Icon icon, ImVec2 corner, float side, ImU32 colo
             pen.line({{0.08f, 0.04f}, {0.08f, 0.92f}, {0.96f, 0.92f}});
             pen.line({{0.22f, 0.2f}, {0.42f, 0.52f}, {0.62f, 0.66f}, {0.92f, 0.74f}});
             break;
+        case Icon::Flag:
+            pen.line({{0.14f, 0.04f}, {0.14f, 0.96f}});
+            pen.frame({0.14f, 0.1f}, {0.94f, 0.62f});
+            pen.box({0.14f, 0.1f}, {0.41f, 0.36f});
+            pen.box({0.67f, 0.1f}, {0.94f, 0.36f});
+            pen.box({0.41f, 0.36f}, {0.67f, 0.62f});
+            break;
         case Icon::Figures:
             pen.box({0.08f, 0.55f}, {0.26f, 0.94f});
             pen.box({0.41f, 0.08f}, {0.59f, 0.94f});

@@ -16,6 +16,7 @@ enum class Icon {
     Split,
     Denoise,
     Chart,
+    Flag,
     Figures,
     Panels,
     Help,

@@ -76,7 +76,8 @@ void SessionLink::take() {
     if (gui_.viewRequest.mode == app::ViewMode::Error && !state.referenceFits && !state.isReferenceRender) {
         gui_.viewRequest.mode = app::ViewMode::Picture; // there is nothing to compare with any more
     }
-    if (app::showsDenoiser(gui_.viewRequest.mode) && !isAvailable(gui_, gui_.viewRequest.mode))
+    const bool mayBeGone = app::showsDenoiser(gui_.viewRequest.mode) || state.picture.isOfRace;
+    if (mayBeGone && !isAvailable(gui_, gui_.viewRequest.mode))
         gui_.viewRequest.mode = app::ViewMode::Picture; // there is nothing to show of it any more
     if (state.picture.image && state.picture.serial != pictureSerial_) {
         pictureSerial_ = state.picture.serial;
@@ -172,6 +173,7 @@ void SessionLink::send() {
         sentView_ = gui_.viewRequest;
         gui_.session.view(sentView_);
     }
+    if (!gui_.settings.showRace && gui_.state.race && gui_.state.race->isShown) gui_.session.leaveRace();
     if (const app::SaveRequest end = filesOf(options_, gui_.exposure(), gui_.settings.tonemap);
         sentEnd_ && end != *sentEnd_) {
         sentEnd_ = end;

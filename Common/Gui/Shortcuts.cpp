@@ -32,6 +32,7 @@ struct Shortcut {
 
 void pauseOrGoOn(Gui& gui) {
     if (ImGui::GetIO().NavVisible) return; // it presses the control that the keyboard is at
+    if (gui.state.race && gui.state.race->phase != app::RaceState::Phase::Over) return gui.session.stopRace();
     gui.state.activity == app::Activity::Rendering ? gui.session.pause() : gui.session.render();
 }
 
@@ -106,7 +107,8 @@ constexpr Shortcut kShortcuts[] = {
     {GLFW_KEY_F1, When::Always, [](Gui& gui) { toggle(gui.showHelp); }},
     {GLFW_KEY_ESCAPE, When::Always, leave},
     {GLFW_KEY_F2, When::Always, [](Gui& gui) { gui.toggleStatistics(); }},
-    {GLFW_KEY_F3, When::Always, [](Gui& gui) { toggle(gui.settings.showComparison); }},
+    {GLFW_KEY_F3, When::Always, [](Gui& gui) { gui.toggleComparison(); }},
+    {GLFW_KEY_F5, When::Always, [](Gui& gui) { gui.toggleRace(); }},
     {GLFW_KEY_F4, When::Always, [](Gui& gui) { toggle(gui.settings.showPanels); }},
     {GLFW_KEY_F11, When::Always, [](Gui& gui) { gui.window.toggleFullScreen(); }},
     {GLFW_KEY_F12, When::Always, [](Gui& gui) { gui.saveRequested = true; }},

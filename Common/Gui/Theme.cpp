@@ -1,5 +1,7 @@
 #include "Common/Gui/Theme.h"
 
+#include <iterator>
+
 #include <imgui.h>
 
 namespace rt::gui {
@@ -147,6 +149,14 @@ ImVec4 axisColor(int axis) {
         default:
             return {0.95f, 0.95f, 0.95f, 1};
     }
+}
+
+ImVec4 entrantColor(std::size_t entrant, app::ColorMode mode) {
+    static const ImVec4 kOnDark[] = {
+        {0.90f, 0.62f, 0, 1}, {0.34f, 0.71f, 0.91f, 1}, {0, 0.72f, 0.53f, 1}, {0.90f, 0.56f, 0.74f, 1}};
+    static const ImVec4 kOnLight[] = {
+        {0.72f, 0.42f, 0, 1}, {0, 0.45f, 0.70f, 1}, {0, 0.47f, 0.34f, 1}, {0.66f, 0.27f, 0.49f, 1}};
+    return (mode == app::ColorMode::Light ? kOnLight : kOnDark)[entrant % std::size(kOnDark)];
 }
 
 Rgb surroundColor(app::ColorMode mode) {

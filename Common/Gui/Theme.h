@@ -1,5 +1,7 @@
 // The colours of the interface.
 #pragma once
+#include <cstddef>
+
 #include "Common/App/Interactive/GuiSettings.h"
 
 struct ImGuiStyle;
@@ -23,6 +25,9 @@ ImVec4 engineColor(bool isGpu, app::ColorMode mode);
 
 // Of the axes X, Y and Z (0, 1, 2) on dark edges over a picture, in all modes; -1: of what is along none of them.
 ImVec4 axisColor(int axis);
+
+// Of the entrants of a race, distinct likewise.
+ImVec4 entrantColor(std::size_t entrant, app::ColorMode mode);
 
 // What surrounds the picture, sRGB: grey, so that its colours are seen as they are.
 struct Rgb {

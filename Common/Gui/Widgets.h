@@ -35,12 +35,12 @@ bool sliderReal(const char* label, const char* tip, double& value, double min, d
 bool inputText(const char* id, const char* hint, std::string& text);
 bool checkbox(const char* label, const char* tip, bool& value);
 
+// The control of combo() alone, as wide as the next item is to be.
 template <class E, std::size_t N>
-bool combo(const char* label, const char* tip, const app::Named<E> (&table)[N], E& value) {
-    row(label, tip);
+bool comboField(const char* id, const app::Named<E> (&table)[N], E& value) {
     const std::string current = app::titleOf(table, value);
     bool changed = false;
-    ImGui::PushID(label);
+    ImGui::PushID(id);
     const bool isOpen = ImGui::BeginCombo("##value", current.c_str());
     if (!isOpen) explainDisabled();
     if (isOpen) {
@@ -57,6 +57,12 @@ bool combo(const char* label, const char* tip, const app::Named<E> (&table)[N], 
     }
     ImGui::PopID();
     return changed;
+}
+
+template <class E, std::size_t N>
+bool combo(const char* label, const char* tip, const app::Named<E> (&table)[N], E& value) {
+    row(label, tip);
+    return comboField(label, table, value);
 }
 
 // Rows that have no effect at the moment, while one of these lives: grey, and where they always are. Their tooltips say

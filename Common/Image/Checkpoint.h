@@ -26,6 +26,9 @@ void writeCheckpoint(std::ostream& out, const nlohmann::json& render, const Film
 Checkpoint readCheckpoint(const std::filesystem::path& path);
 Checkpoint readCheckpoint(std::istream& in, const std::string& name);
 
+// How long the film has been sampled, in which parts of one image differ; earlier programs do not tell.
+inline constexpr const char* kSecondsField = "seconds";
+
 // Choices that earlier programs did not have and checkpoints of theirs do not tell of: connections, split camera rays,
 // paths that pixels share.
 inline constexpr const char* kLaterFields[] = {"specular_connections", "edge_rays", "path_reuse"};

@@ -50,6 +50,7 @@ class Merger {
     void add(std::uint32_t file) {
         Checkpoint part = readCheckpoint(files_[file]);
         addLaterFields(part.render);
+        if (part.render.is_object()) part.render.erase(kSecondsField);
         if (part.film.desc().adaptive)
             throw InputError(name(file) + ": its samples are adaptive, which is planned for a whole image: " +
                              "it cannot be merged");

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "Common/App/Session/SceneSource.h"
 #include "Common/Bench/BenchOptions.h"
 #include "Common/Bench/Suite.h"
 #include "Common/Core/Error.h"
@@ -101,6 +102,26 @@ TEST(BenchSuite, CombinationsThatMeanTheSameAreMadeOnce) {
     EXPECT_EQ(count(R"("engine": ["single", "multi"], "threads": [1, 2, 4, 8, 0], "spp": 1)"), 1u + 3u);
 }
 
+TEST(BenchSuite, VariantsAreValuesThatBelongTogether) {
+    const Suite suite = parseSuite(suiteWith(R"("max_depth": [3, 4], "width": 64, "spp": 4,
+        "camera": {"look_from": [1, 2, 3], "look_at": [0, 0, 0]},
+        "variants": [{"sampler": "sobol", "light_sampling": "bsdf"},
+                     {"light_sampling": "mis", "sampler": "independent"}])"),
+                                   "s.json");
+    const Experiment& experiment = suite.experiments.front();
+    const std::vector<Config> configs = combinations(experiment, 4);
+    ASSERT_EQ(configs.size(), 4u); // two variants, each with both depths
+    for (const Config& config : configs) {
+        const bool isFirst = config.settings.sampler == app::SamplerKind::Sobol;
+        EXPECT_EQ(config.settings.lightSampling, isFirst ? app::LightSampling::Bsdf : app::LightSampling::Mis);
+        EXPECT_EQ(app::poseOf(config.camera, {}).lookFrom.y, 2);
+    }
+    EXPECT_TRUE(varies(experiment, *findAxis("sampler")));
+    EXPECT_TRUE(varies(experiment, *findAxis("max_depth")));
+    EXPECT_FALSE(varies(experiment, *findAxis("width")));
+    EXPECT_FALSE(varies(experiment, *findAxis("adaptive")));
+}
+
 TEST(BenchSuite, ErrorsNameFilePlaceAndWhatIsAllowed) {
     const auto expect = [](const std::string& text, const std::string& a, const std::string& b) {
         const std::string failure = failureOf(text);
@@ -127,6 +148,15 @@ TEST(BenchSuite, ErrorsNameFilePlaceAndWhatIsAllowed) {
     expect(suiteWith(R"("spp": 1, "smapler": "sobol")"), "/experiments/0/smapler", "sampler");
     expect(suiteWith(R"("spp": 1, "repeats": 0)"), "/experiments/0/repeats", "1 to 1000");
     expect(suiteWith(R"("spp": 1, "baseline": {"colour": 1})"), "/baseline/colour", "axis");
+    expect(suiteWith(R"("spp": 1, "variants": [])"), "/variants", "empty");
+    expect(suiteWith(R"("spp": 1, "variants": [{"colour": 1}])"), "/variants/0/colour", "axis");
+    expect(suiteWith(R"("spp": 1, "variants": [{"sampler": "sobol"}, {"adaptive": "on"}])"), "/variants/1",
+           "same axes");
+    expect(suiteWith(R"("spp": 1, "sampler": "sobol", "variants": [{"sampler": "sobol"}])"), "/variants/0/sampler",
+           "as well");
+    expect(suiteWith(R"("spp": 1, "variants": [{"denoise": "on"}])"), "/variants", "2 or more");
+    expect(suiteWith(R"("spp": 1, "variants": [{"ranks": 2}])"), "/variants", "ranks");
+    expect(suiteWith(R"("spp": 1, "camera": {"look": 1})"), "/camera", "look_from");
     expect(suiteWith(R"("spp": 1, "max_spp": {"quantum": 1})"), "/max_spp/quantum", "pipeline");
     expect(R"({"version": 1, "experiments": [{"name": "a", "spp": 1}, {"name": "a", "spp": 1}]})",
            "/experiments/1/name", "earlier");

@@ -51,16 +51,18 @@ std::vector<std::string> writeFilm(const SaveRequest& request, Options options, 
     return outputs.failures;
 }
 
-void writePreview(const SaveRequest& request, const Preview& preview, PublishedState& state) {
+void writePicture(const SaveRequest& request, const Picture& picture, PublishedState& state) {
+    const std::string what = picture.isPreview ? "the preview" : "the race's picture";
     std::string saved;
     for (const std::string& file : request.files) {
         try {
-            if (preview.picture.data.empty()) throw RenderError("nothing to save yet: the preview is being drawn");
+            if (!picture.radiance || picture.radiance->data.empty())
+                throw RenderError("nothing to save yet: " + what + " is being made");
             const auto curve = static_cast<std::uint32_t>(request.tonemap);
-            const image::ImageRows picture = preview.picture;
-            image::writeImage(
-                file, image::isDisplayReferred(file) ? image::toDisplay(picture, request.exposure, curve) : picture);
-            saved += (saved.empty() ? "Saved the preview as " : ", ") + file;
+            const image::ImageRows rows = *picture.radiance;
+            image::writeImage(file,
+                              image::isDisplayReferred(file) ? image::toDisplay(rows, request.exposure, curve) : rows);
+            saved += (saved.empty() ? "Saved " + what + " as " : ", ") + file;
         } catch (...) {
             state.fail(std::current_exception(), ErrorSource::Save);
         }

@@ -17,8 +17,8 @@ std::vector<std::string> writeFilm(const SaveRequest& request, Options options, 
                                    const FilmRun& film, const FilmReference& reference, StopReason reason,
                                    PublishedState& state);
 
-// What is seen, and nothing that only a film has. A preview without pixels is yet to be drawn.
-void writePreview(const SaveRequest& request, const Preview& preview, PublishedState& state);
+// Of a preview or of a race: the radiance that is seen, and nothing that only a film has.
+void writePicture(const SaveRequest& request, const Picture& picture, PublishedState& state);
 
 // What a run is of; its figures are yet to come.
 RunRecord recordOfWork(const scene::CompiledScene& scene, bool oneSidedLights, const scene::CameraDesc& camera,

@@ -4,6 +4,12 @@
 
 namespace rt::app {
 
+RenderedReference referenceOf(const image::Film& film) {
+    RenderedReference made{film.resolve()};
+    if (film.minReplicateSamples() > 0) made.error = image::referenceRelMse(made.image, film.varianceOfMean());
+    return made;
+}
+
 void FilmReference::begin(const ReferenceKey& film) {
     filmKey_ = film;
     curve_.clear();

@@ -13,6 +13,13 @@
 
 namespace rt::app {
 
+// A film that was rendered as a reference, resolved, and its own relMSE; 0: not known.
+struct RenderedReference {
+    image::Image image;
+    double error = 0;
+};
+RenderedReference referenceOf(const image::Film& film);
+
 class FilmReference {
   public:
     // A film that is to become the reference; the one before stays until then.

@@ -105,6 +105,7 @@ template <typename Visit, typename Settings>
 void forEachToggle(const Visit& visit, Settings& settings) {
     visit("window_placed", settings.windowPlaced);
     visit("window_maximised", settings.windowMaximised);
+    visit("show_race", settings.showRace);
     visit("show_panels", settings.showPanels);
     visit("show_comparison", settings.showComparison);
     visit("show_statistics", settings.showStatistics);
@@ -147,6 +148,7 @@ GuiSettings parseGuiSettings(std::string_view text) {
         for (const auto& [id, isOpen] : panels->items())
             if (isOpen.is_boolean()) settings.openPanels[id] = isOpen;
     }
+    reader.read("race_seconds", settings.raceSeconds, kMinRaceSeconds, kMaxRaceSeconds);
     reader.read("exposure", settings.exposure, -100, 100);
     reader.read("tonemap", kTonemaps, settings.tonemap);
     reader.read("save_folder", settings.saveFolder);
@@ -179,6 +181,7 @@ std::string toText(const GuiSettings& s) {
               {"window_width", s.windowWidth},
               {"window_height", s.windowHeight},
               {"open_panels", s.openPanels},
+              {"race_seconds", s.raceSeconds},
               {"exposure", s.exposure},
               {"tonemap", nameOf(kTonemaps, s.tonemap)},
               {"save_folder", s.saveFolder},

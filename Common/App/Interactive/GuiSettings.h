@@ -43,6 +43,8 @@ struct GuiSettings {
     int windowX = 0, windowY = 0, windowWidth = 1360, windowHeight = 860;
     bool windowPlaced = false; // the position is known
     bool windowMaximised = false;
+    bool showRace = false;   // in place of the comparison
+    double raceSeconds = 10; // that each entrant gets
     bool showPanels = true;
     bool showComparison = false;
     bool showStatistics = true;

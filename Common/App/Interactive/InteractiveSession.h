@@ -70,6 +70,16 @@ class InteractiveSession {
     void loadReference(const std::string& file) {
         mailbox_.post(Cancel::Nothing, [&](Requests& requests) { requests.referenceFile = file; });
     }
+    // Races the entrants in the present view, each for the same time; the film rests meanwhile. What changes the view or
+    // goes on with the film ends it.
+    void race(const RaceRequest& request) {
+        mailbox_.post(Cancel::Slice, [&](Requests& requests) { requests.race = request; });
+    }
+    void stopRace() { endRace(Requests::RaceEnd::Stop); }   // what it has measured stays, and its picture is shown
+    void leaveRace() { endRace(Requests::RaceEnd::Leave); } // the film comes back
+    void showInRace(std::optional<std::size_t> entrant) {   // none: who leads
+        mailbox_.post(Cancel::Slice, [entrant](Requests& requests) { requests.raceShown = entrant; });
+    }
     // Finds the focus distance for what is seen in a pixel: the state tells.
     void pickFocus(std::uint32_t x, std::uint32_t y) {
         mailbox_.post(Cancel::Slice, [x, y](Requests& requests) { requests.focus = {x, y}; });
@@ -94,6 +104,9 @@ class InteractiveSession {
 
   private:
     void dropScenes();
+    void endRace(Requests::RaceEnd end) {
+        mailbox_.post(Cancel::Build, [end](Requests& requests) { requests.raceEnd = end; });
+    }
     using Command = Requests::Command;
     void post(Cancel cancel, Command command) {
         mailbox_.post(cancel, [command](Requests& requests) { requests.command = command; });

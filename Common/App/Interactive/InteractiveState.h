@@ -2,12 +2,15 @@
 #pragma once
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "Common/App/Interactive/ErrorCurve.h"
+#include "Common/App/Interactive/Race.h"
 #include "Common/App/Interactive/RunHistory.h"
 #include "Common/App/Interactive/ViewImage.h"
 #include "Common/App/Options/Options.h"
@@ -68,6 +71,7 @@ struct Picture {
     std::shared_ptr<const image::Image> radiance;  // the same, but for views of something else
     bool isDisplay = false;                        // no exposure and no tone curve belong to it
     bool isPreview = false;                        // by rasterisation
+    bool isOfRace = false;                         // of SessionState::race, whose state tells whose
     bool isDenoised = false;                       // the image is not the radiance, but that with less noise
     bool isLive = false;                           // of which a better one is to come
     std::shared_ptr<const image::Image> subject{}; // that views of errors are of: the radiance, denoised, or of a half
@@ -77,12 +81,6 @@ struct Picture {
     std::uint64_t spp = 0; // of every pixel, adaptive ones in the mean; 0: partly a draft of lower resolution
     // With ViewRequest::inspect, where known: variance of each pixel's mean, and its samples in one channel.
     std::shared_ptr<const image::Image> variance, samples;
-};
-
-struct ErrorPoint {
-    double seconds = 0; // of sampling
-    double spp = 0;
-    double relmse = 0; // against the reference
 };
 
 // The last render that ended.
@@ -133,6 +131,8 @@ struct SessionState {
     EngineReport report;
     std::optional<LastRun> lastRun;
 
+    std::shared_ptr<const RaceState> race; // the present one or the last; null: there has been none
+
     std::string reference; // what it is; empty: there is none
     std::shared_ptr<const image::Image> referenceImage;
     double referenceError = 0;            // its own relMSE, estimated; 0: not known
@@ -182,6 +182,7 @@ struct SessionSetup {
     bool drawnBySoftware = false;     // each picture costs the processor's threads, so that fewer are shown
     ReferenceCache references{{}};    // that were rendered; keeps none by itself
     RunHistory* history = nullptr;    // gets the runs that end; may be none
+    std::filesystem::path programs{}; // where the other program is, in place of this one's folder: for tests
     std::function<void()> onChange;   // called on other threads when there is something new to show
 };
 

@@ -20,6 +20,7 @@ namespace rt::app {
 // The last request of a kind counts, of files each. InteractiveSession says what they mean.
 struct Requests {
     enum class Command { Render, GoOn, Pause, Stop, Reset };
+    enum class RaceEnd { Stop, Leave }; // its picture stays, or gives way to the film's
     bool quit = false;
     bool dropsScene = false;                // that was loaded and is not wanted any more
     std::optional<std::string> sceneFile{}; // that the edited scene has been saved to
@@ -37,16 +38,22 @@ struct Requests {
     std::optional<std::uint32_t> referenceSpp{};
     std::optional<std::string> referenceFile{};
     std::optional<std::array<std::uint32_t, 2>> focus{}; // pixel
-    std::optional<Stopwatch> changed{};                  // since the first change of camera or settings
+    std::optional<RaceRequest> race{};
+    std::optional<RaceEnd> raceEnd{};
+    std::optional<std::optional<std::size_t>> raceShown{}; // none within: who leads
+    std::optional<Stopwatch> changed{};                    // since the first change of camera or settings
 
-    bool any() const { return needEngine() || concernFiles() || dropsScene || held; }
+    bool any() const { return needEngine() || concernFiles() || concernRace() || dropsScene || held; }
     bool needEngine() const { return changeWhatIsSeen() || concernFilm(); }
     bool changeWhatIsSeen() const { return camera || changeAllButCamera(); }
-    bool moveCameraAlone() const { return camera && !changeAllButCamera() && !concernFilm() && !concernFiles(); }
+    bool moveCameraAlone() const {
+        return camera && !changeAllButCamera() && !concernFilm() && !concernFiles() && !concernRace();
+    }
 
   private:
     bool changeAllButCamera() const { return engine || request || scene || preview || previewWidth; }
     bool concernFilm() const { return command || view || referenceSpp || referenceFile || focus; }
+    bool concernRace() const { return race || raceEnd || raceShown; }
     bool concernFiles() const { return quit || !saves.empty() || atEnd || sceneFile; }
 };
 

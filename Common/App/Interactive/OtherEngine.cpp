@@ -140,12 +140,7 @@ void OtherEngine::work(const OtherJob& job) {
         child.end();
         return update([](OtherState& state) { state.phase = Phase::Cancelled; });
     }
-    if (*code != 0) {
-        const std::string line = lastLine(textOf(log));
-        throw RenderError(*code > 128 || line.empty() ? job.program + ": ended by itself, exit code " +
-                                                            std::to_string(*code) + (line.empty() ? "" : ": " + line)
-                                                      : line);
-    }
+    checkEnd(job.program, *code, log);
     finish(job, picture, statistics);
 }
 

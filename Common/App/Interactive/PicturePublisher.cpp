@@ -316,6 +316,13 @@ void PicturePublisher::showPreview(Engine& engine, const scene::CameraDesc& came
     recordLatency();
 }
 
+void PicturePublisher::showOfRace(Picture picture, const image::Image* reference) {
+    picture.isOfRace = true;
+    if (view_.mode == ViewMode::Error && reference != nullptr)
+        put(std::make_shared<ViewImage>(showError(*picture.subject, *reference, view_.scale)), picture);
+    state_.update([&](SessionState& state) { put(std::move(picture), state); });
+}
+
 std::optional<double> focusDistance(const image::Image& depth, std::uint32_t x, std::uint32_t y, double verticalFov) {
     if (x >= depth.width || y >= depth.height || !(*depth.pixel(x, y) > 0)) return std::nullopt;
     const double half = std::tan(0.5 * verticalFov * 0.017453292519943295);

@@ -51,6 +51,8 @@ class PicturePublisher {
     bool isDue(const FilmRun& film, const RenderRequest& request) const;
     double secondsUntilDue(const RenderRequest& request) const; // at most; no less than a slice should take
 
+    // One of a race; `reference`: to show its error against, may be null.
+    void showOfRace(Picture picture, const image::Image* reference);
     // Drawn with `width` pixels in a row.
     void showPreview(Engine& engine, const scene::CameraDesc& camera, const RenderSettings& size, std::uint32_t width);
     const Preview& preview() const { return preview_; } // shown last; no pixels: none

@@ -109,19 +109,19 @@ std::optional<RunRecord> toRecord(const std::string& line) {
     return std::nullopt;
 }
 
-// Fields with commas or quotes are quoted as in RFC 4180.
 template <class T>
 const T& csvField(const T& number) {
     return number;
 }
+
+} // namespace
+
 std::string csvField(const std::string& text) {
     if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
     std::string quoted = "\"";
     for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
     return quoted + "\"";
 }
-
-} // namespace
 
 std::string toJsonLine(const RunRecord& r) {
     Json curve = Json::array();

@@ -104,4 +104,7 @@ std::string toJsonLine(const RunRecord& record); // without the line's end
 std::string toCsv(const std::vector<RunRecord>& records);
 std::string utcNow();
 
+// A text as a field of CSV: with commas or quotes it is quoted as in RFC 4180.
+std::string csvField(const std::string& text);
+
 } // namespace rt::app

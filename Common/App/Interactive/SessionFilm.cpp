@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "Common/Core/Interruption.h"
-#include "Common/Image/Metrics.h"
 #include "Common/Render/RenderParams.h"
 
 namespace rt::app {
@@ -14,11 +13,11 @@ namespace {
 constexpr double kMaxFirstSeconds = 0.25; // of a draft or first pass when the next change waits already
 constexpr double kPassSlice = 0.005;      // where the picture is shown as soon as it has its first samples
 
+} // namespace
+
 ReferenceKey keyOf(const FilmSubject& subject, const RenderSettings& film) {
     return {subject.scene.hash, subject.camera, film.width, film.height, film.maxDepth};
 }
-
-} // namespace
 
 SessionFilm::SessionFilm(const SessionSetup& setup, const Mailbox& mailbox, PublishedState& state)
     : publisher(state, setup.drawnBySoftware, mailbox.cancelled(Cancel::Slice)),
@@ -215,10 +214,8 @@ void SessionFilm::findReference() {
 }
 
 void SessionFilm::setReference(const image::Film& film, const std::string& how) {
-    image::Image mean = film.resolve();
-    const bool hasError = film.minReplicateSamples() > 0;
-    const double error = hasError ? image::referenceRelMse(mean, film.varianceOfMean()) : 0;
-    reference.set(std::move(mean), error);
+    RenderedReference made = referenceOf(film);
+    reference.set(std::move(made.image), made.error);
     publishReference(how + ", " + std::to_string(film.minSamples()) + " spp");
 }
 

@@ -21,6 +21,9 @@ struct FilmSubject {
     const RenderRequest& request;
 };
 
+// What a film of these settings has in common with its reference.
+ReferenceKey keyOf(const FilmSubject& subject, const RenderSettings& film);
+
 class SessionFilm {
   public:
     SessionFilm(const SessionSetup& setup, const Mailbox& mailbox, PublishedState& state);

@@ -38,7 +38,7 @@ EndFiles SessionThread::run() {
             // one.
             if (isReady() && !requests.moveCameraAlone()) film_.beginPostponed(subject());
             apply(std::move(requests));
-            if (hasWork()) isPreviewing() ? renderPreview() : renderFilm();
+            if (hasWork()) isRacing() ? renderRace() : isPreviewing() ? renderPreview() : renderFilm();
         } catch (const Interrupted&) { // by a request that comes next
             state_.setStage("");
         } catch (...) {
@@ -56,6 +56,7 @@ EndFiles SessionThread::run() {
 // ---- what was asked for --------------------------------------------------------------------------------------------
 
 void SessionThread::apply(Requests requests) {
+    applyToRace(requests);
     if (requests.dropsScene && waitingScene_ && !loader_.isWanted(waitingScene_->request)) waitingScene_.reset();
     if (!requests.scene) requests.scene = std::exchange(waitingScene_, std::nullopt);
     if (!requests.engine) requests.engine = waitingEngine_;
@@ -89,10 +90,11 @@ void SessionThread::apply(Requests requests) {
     if (requests.focus) findFocus((*requests.focus)[0], (*requests.focus)[1]);
     if (requests.view && film_.publisher.setView(*requests.view)) showFilm();
     if (requests.command && !isPreviewing()) obey(*requests.command);
+    if (requests.race) startRace(*requests.race);
     // There may be nothing new to see.
     if (!film_.isStale() || activity_ == Activity::Stopped) film_.publisher.forgetLatency();
     // What was changed is looked at, unless the user has stopped rendering.
-    if (film_.isStale() && needEngine && activity_ != Activity::Stopped && !isActive())
+    if (film_.isStale() && needEngine && activity_ != Activity::Stopped && !isActive() && !isRaceShown_)
         setActivity(Activity::Rendering);
     if (requests.held && std::exchange(isHeld_, *requests.held) && !isHeld_) recordWaiting();
     writeWaiting();
@@ -270,6 +272,7 @@ void SessionThread::renderFilm() {
 }
 
 void SessionThread::showFilm() {
+    if (isRaceShown_) return publishRace(true);
     if (!isPreviewing()) film_.show();
 }
 

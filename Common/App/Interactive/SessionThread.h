@@ -8,6 +8,7 @@
 
 #include "Common/App/Interactive/Mailbox.h"
 #include "Common/App/Interactive/PublishedState.h"
+#include "Common/App/Interactive/RaceRun.h"
 #include "Common/App/Interactive/SessionFilm.h"
 
 namespace rt::app {
@@ -36,9 +37,10 @@ class SessionThread {
     bool isActive() const { return activity_ == Activity::Rendering; }
     bool isPreviewing() const { return previewIsWanted_ && engine_ && engine_->canPreview(); }
     bool isRetrying() const { return waitingEngine_ || waitingScene_; }
+    bool isRacing() const { return race_ && race_->isRunning(); }
     bool hasWork() const {
-        return isReady() &&
-               (isPreviewing() ? previewIsStale_ : isActive() || film_.isRefining() || film_.isFiltering());
+        if (!isReady() || isRaceShown_) return isReady() && isRacing();
+        return isPreviewing() ? previewIsStale_ : isActive() || film_.isRefining() || film_.isFiltering();
     }
 
     FilmSubject subject() const { return {*engine_, *loaded_.scene, camera_, request_}; } // requires isReady()
@@ -48,6 +50,15 @@ class SessionThread {
     void finish(StopReason reason);
     bool record(); // now, or when nothing is held any more; whether it was now
     void recordWaiting();
+
+    // Races.
+    void applyToRace(Requests& requests);
+    bool isRaceEndedBy(const Requests& requests) const;
+    void startRace(const RaceRequest& request);
+    void renderRace();
+    void leaveRace(const std::string& why);
+    void publishRace(bool again = false);
+    void keepRaceReference();
 
     // Files.
     void writeWaiting();
@@ -76,6 +87,11 @@ class SessionThread {
     SessionFilm film_;
     std::uint32_t previewWidth_ = 0; // 0: the picture's
     bool previewIsWanted_, previewIsStale_ = true;
+
+    std::unique_ptr<RaceRun> race_; // the present one, or the last that is still shown
+    bool isRaceShown_ = false;
+    bool resumesAfterRace_ = false; // the film was being rendered when it began
+    Stopwatch sinceRacePublished_;
 
     std::vector<SaveRequest> waiting_; // to be written
     std::optional<SaveRequest> atEnd_; // of the first render

@@ -19,11 +19,16 @@ void SessionThread::writeWaiting() {
 }
 
 void SessionThread::write(const SaveRequest& request) {
+    if (isRaceShown_) return writePicture(request, state_.copy().picture, state_);
     if (isPreviewing()) {
         const RenderSettings size = sizedSettings(request_, *loaded_.scene);
         const Preview& shown = film_.publisher.preview();
         const bool isOfThatSize = shown.picture.width == size.width && shown.picture.height == size.height;
-        return writePreview(request, isOfThatSize ? shown : drawPreview(*engine_, camera_, size, size.width), state_);
+        Picture picture;
+        picture.isPreview = true;
+        picture.radiance = std::make_shared<const image::Image>(
+            isOfThatSize ? shown.picture : drawPreview(*engine_, camera_, size, size.width).picture);
+        return writePicture(request, picture, state_);
     }
     if (!film_.hasSamples()) {
         state_.fail(std::make_exception_ptr(RenderError("nothing to save yet: the picture is being prepared")),

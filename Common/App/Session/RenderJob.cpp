@@ -168,7 +168,7 @@ std::string RenderJob::statisticsJson() {
 
 void RenderJob::save(const std::string& file, const std::atomic<bool>& cancel) const {
     const Interruptible interruptible(cancel);
-    saveCheckpoint(file, options_.settings, *scene_, engine_->report(), engine_->film());
+    saveCheckpoint(file, options_.settings, *scene_, engine_->report(), run_->seconds(), engine_->film());
 }
 
 // Samples that no output took must not be lost: they go to a new checkpoint in the first folder that takes it.

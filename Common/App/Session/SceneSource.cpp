@@ -133,9 +133,10 @@ scene::SceneDesc loadScene(const std::string& source, const scene::Moment& momen
 }
 
 std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights,
-                                                    bool generatedAssets) {
+                                                    bool generatedAssets, const std::string& camera) {
     scene::CompileOptions options;
     options.generatedAssets = generatedAssets;
+    if (!camera.empty()) options.camera = cameraOf(camera, desc);
     return compileWith(desc, oneSidedLights, options);
 }
 

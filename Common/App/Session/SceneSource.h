@@ -19,9 +19,10 @@ namespace rt::app {
 // moments. Throws InputError, and UsageError for an animation that there is not.
 scene::SceneDesc loadScene(const std::string& source, const scene::Moment& moment = {});
 
-// With its textures; with generated ones in place of files that have a stand-in, where asked for. Throws InputError.
+// With its textures; with generated ones in place of files that have a stand-in, where asked for. `camera`: a pose or
+// name, as --camera takes it; empty: the scene's own. Throws InputError, and UsageError for a camera that there is not.
 std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights,
-                                                    bool generatedAssets = false);
+                                                    bool generatedAssets = false, const std::string& camera = {});
 
 // What --scene and the flags beside it ask for.
 struct SceneRequest {

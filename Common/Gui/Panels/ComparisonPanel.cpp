@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
 #include "Common/Gui/Panels/Chart.h"
 #include "Common/Gui/Panels/EngineCards.h"
@@ -23,18 +22,6 @@ constexpr const char* kNoneSelected = "no run is selected in the table";
 constexpr float kNarrow = 34, kMinHeight = 8; // of the panel; of table and chart: in heights of the font
 
 using app::RunRecord;
-
-void exportCsv(Gui& gui) {
-    const std::string file = (saveFolder(gui.settings.saveFolder) / "ray-tracing-history.csv").string();
-    try {
-        AtomicFile target(file);
-        target.stream() << toCsv(gui.history.records());
-        target.commit();
-        gui.say("Saved " + file, false);
-    } catch (const Error& error) {
-        gui.say(error.what(), true);
-    }
-}
 
 // What there is to measure against, and the error that is known by it.
 void drawReferenceState(const Gui& gui) {
@@ -207,9 +194,11 @@ void drawRunActions(Gui& gui) {
     drawDeletion(gui, "##clear", "Clear", "All runs that are shown, from the history", gui.runs.shown(),
                  "no run is shown");
     besideIfItFits(buttonWidth("Export CSV"));
-    if (button("Export CSV", "All runs, to the folder that pictures are saved to", true)) exportCsv(gui);
+    if (button("Export CSV", "All runs, to the folder that pictures are saved to", true))
+        gui.saveText(saveFolder(gui.settings.saveFolder) / "ray-tracing-history.csv", toCsv(gui.history.records()));
     besideIfItFits(buttonWidth("Export PNG"));
-    if (button("Export PNG", "The chart as it is shown, to the same folder", true)) gui.chartRequested = true;
+    if (button("Export PNG", "The chart as it is shown, to the same folder", true))
+        gui.partToSave = SavedPart{gui.chart, saveFolder(gui.settings.saveFolder) / "ray-tracing-errors.png"};
 }
 
 RunBoard::InView inView(const Gui& gui) {

@@ -32,6 +32,7 @@ constexpr HelpLine kLeft[] = {
     {nullptr, "Window"},
     {"F1", "this help"},
     {"F2, F3, F4", "statistics, comparison, panels"},
+    {"F5", "race of several settings"},
     {"F11", "full screen"},
     {"Ctrl + plus, minus", "larger, smaller interface"},
     {"Tab, arrows, Enter", "walk through the controls"},

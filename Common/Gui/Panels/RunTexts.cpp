@@ -16,10 +16,14 @@ std::string engineText(const app::RunRecord& run) {
     return text;
 }
 
-std::string ratioText(double ratio) {
+std::string factorText(double factor) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.3g\u00d7 %s", ratio >= 1 ? ratio : 1 / ratio, ratio >= 1 ? "faster" : "slower");
+    std::snprintf(text, sizeof text, "%.3g\u00d7", factor);
     return text;
+}
+
+std::string ratioText(double ratio) {
+    return factorText(ratio >= 1 ? ratio : 1 / ratio) + (ratio >= 1 ? " faster" : " slower");
 }
 
 std::string percentText(double share) {

@@ -14,7 +14,8 @@ namespace rt::gui {
 inline bool isGpuRun(const app::RunRecord& run) {
     return run.app == app::kGpuProgram;
 }
-std::string ratioText(double ratio); // "3.2x faster", "1.31x slower"
+std::string factorText(double factor); // "3.2x"
+std::string ratioText(double ratio);   // "3.2x faster", "1.31x slower"
 // How two runs compare, and how far repeated ones differ.
 std::string headlineOf(const app::RunPair& pair, const app::RepeatedComparison& repeats);
 std::string engineText(const app::RunRecord& run);         // "CPU multi, 8 threads"

@@ -52,10 +52,49 @@ std::string joined(std::initializer_list<std::string> parts) {
     return text;
 }
 
+ProgressTexts progressOfRace(const app::RaceState& race) {
+    using Phase = app::RaceState::Phase;
+    ProgressTexts texts;
+    switch (race.phase) {
+        case Phase::Preparing:
+            texts.bar = "race";
+            texts.line = race.stage;
+            return texts;
+        case Phase::Reference:
+            texts.share = static_cast<float>(std::min(1.0, race.referenceSeconds / race.referenceWanted));
+            texts.bar = "reference";
+            texts.line = "Rendering the race's reference: " + roughDuration(race.referenceSeconds) + " of " +
+                         roughDuration(race.referenceWanted);
+            return texts;
+        case Phase::Running:
+        case Phase::Over:
+            break;
+    }
+    double slowest = race.seconds; // of those that are under way
+    for (const app::RaceLane& lane : race.lanes)
+        if (!lane.isOut) slowest = std::min(slowest, lane.seconds);
+    texts.share = static_cast<float>(std::min(1.0, slowest / race.seconds));
+    texts.bar = "race: " + shortDuration(slowest) + " of " + shortDuration(race.seconds);
+    const std::string end = race.ending.empty() ? "race over" : "race over: " + race.ending;
+    texts.line = race.phase == Phase::Over ? end : "race: each has had that much";
+    return texts;
+}
+
+// Of the entrant that is shown.
+std::vector<std::string> chipsOfRace(const app::SessionState& state) {
+    const app::RaceLane& lane = state.race->lanes[state.race->shown];
+    std::vector<std::string> texts{"Race: " + lane.name, std::to_string(state.picture.spp) + " spp"};
+    if (lane.curve.empty()) return texts;
+    texts.push_back(shortDuration(lane.curve.back().seconds));
+    texts.push_back("relMSE " + errorText(lane.curve.back().relmse) + ", measured");
+    return texts;
+}
+
 } // namespace
 
 ProgressTexts progressOf(const app::SessionState& state, double timeLimit) {
     ProgressTexts texts;
+    if (state.race && state.race->isShown) return progressOfRace(*state.race);
     const app::RenderStatus& status = state.status;
     if (!state.stage.empty()) {
         texts.bar = "preparing";
@@ -85,6 +124,7 @@ ProgressTexts progressOf(const app::SessionState& state, double timeLimit) {
 std::vector<std::string> chipTexts(const app::SessionState& state, bool isGpu, bool isBarShown) {
     const std::string program = isGpu ? "GPU " : "CPU ";
     if (state.picture.isPreview) return {program + "preview"};
+    if (state.picture.isOfRace && state.race) return chipsOfRace(state);
     std::vector<std::string> texts{program + state.report.engine};
     const std::string wanted = isBarShown ? "" : " / " + std::to_string(state.settings.spp);
     texts.push_back(state.picture.spp > 0 ? std::to_string(state.picture.spp) + wanted + " spp" : "draft");

@@ -14,7 +14,7 @@ namespace {
 using app::Activity;
 
 constexpr const char* kNoPicture = "there is no picture yet";
-constexpr int kRightIcons = 5; // comparison, statistics, panels, help, errors
+constexpr int kRightIcons = 6; // comparison, race, statistics, panels, help, errors
 
 float gap() {
     return ImGui::GetStyle().ItemInnerSpacing.x;
@@ -90,6 +90,7 @@ float modesWidth() {
 }
 
 const char* whyNot(const Gui& gui, const ViewModeRow& mode) {
+    if (gui.state.picture.isOfRace && mode.mode != app::ViewMode::Error) return "of a race only pictures are shown";
     return gui.state.picture.isPreview ? "ray tracing is off" : mode.missing;
 }
 
@@ -140,7 +141,11 @@ void drawDenoise(Gui& gui, float width) {
 void drawRight(Gui& gui) {
     app::GuiSettings& settings = gui.settings;
     if (iconButton("comparison", Icon::Chart, "Comparison of runs (F3)", true, settings.showComparison))
-        settings.showComparison = !settings.showComparison;
+        gui.toggleComparison();
+    beside();
+    if (iconButton("race", Icon::Flag, "Race of several settings, each for the same time (F5)", true,
+                   settings.showRace))
+        gui.toggleRace();
     beside();
     const bool areFiguresOpen = settings.showPanels && settings.showStatistics && settings.openPanels["statistics"];
     if (iconButton("statistics", Icon::Figures, "Statistics (F2)", true, areFiguresOpen)) gui.toggleStatistics();

@@ -47,6 +47,7 @@ const ViewModeRow& rowOf(ViewMode mode) {
 bool isAvailable(const Gui& gui, ViewMode mode) {
     if (gui.state.picture.isPreview) return mode == ViewMode::Picture;
     if (mode == ViewMode::Error) return gui.state.referenceFits;
+    if (gui.state.picture.isOfRace) return mode == ViewMode::Picture;
     if (mode == ViewMode::Heat) return gui.state.canShowCost;
     const bool hasHalves = gui.state.settings.replicates % 2 == 0;
     if (mode == ViewMode::HalfA || mode == ViewMode::HalfB) return hasHalves;

@@ -1,0 +1,18 @@
+// What is kept of a race: its table, and the suite by which ray-tracing-bench repeats it.
+#pragma once
+#include <string>
+
+#include "Common/App/Interactive/Race.h"
+
+namespace rt::app {
+
+// CSV: a line for each point of each curve. `times_leader`, at the last point of each: how much more time than the
+// leader it takes to its error.
+std::string raceTable(const RaceState& race, bool isGpu);
+
+// Why no suite can repeat it; null: one can.
+const char* whyNoSuite(const RaceState& race);
+// A suite of ray-tracing-bench. Entrants whose engine is not known yet have the default one of their program.
+std::string raceSuite(const RaceState& race, bool isGpu);
+
+} // namespace rt::app

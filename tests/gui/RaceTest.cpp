@@ -1,0 +1,69 @@
+// A race in a window: started, looked at, saved.
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "Common/Bench/Suite.h"
+#include "Common/Image/ImageIo.h"
+#include "tests/gui/WindowTest.h"
+
+namespace rt::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RaceTest : public WindowTest {
+  protected:
+    void startWithPanel() {
+        fs::create_directories(folder_ / "config" / "ray-tracing");
+        store({{"saw_first_steps", true}, {"show_race", true}, {"race_seconds", 0.5}});
+        scene_ = writeScene("ball.json", "Ball");
+        start({"--scene", scene_.string(), "--width", "64", "--spp", "4"});
+    }
+    fs::path saved(const std::string& name) const { return folder_ / "pictures" / name; }
+    bool save(const std::string& button, const std::string& name) {
+        return clickText(button, kPanel, [&] { return fs::exists(saved(name)); });
+    }
+    static constexpr Place kPanel{kSide, kHeight / 2, 1 << 20, 1 << 20};
+    fs::path scene_;
+};
+INSTANTIATE_TEST_SUITE_P(, RaceTest, kFirstProgram, nameOfProgram);
+INSTANTIATE_TEST_SUITE_P(Nightly, RaceTest, kSecondProgram, nameOfProgram);
+
+TEST_P(RaceTest, TwoEstimatorsRaceAndAllIsSaved) {
+    startWithPanel();
+    ASSERT_FALSE(HasFatalFailure());
+    ASSERT_TRUE(appears("Start race", kPanel)) << log();
+    ASSERT_TRUE(clickText("Start race", kPanel, [this] {
+        return isShown("race over", {0, 0, kSide, kHeight});
+    })) << log();
+    ASSERT_TRUE(save("Save table", "race.csv")) << log();
+    std::ifstream table(saved("race.csv"));
+    std::string line;
+    int mis = 0, bsdf = 0; // points of both curves
+    while (std::getline(table, line)) {
+        mis += line.find(",mis,") != std::string::npos;
+        bsdf += line.find(",bsdf,") != std::string::npos;
+    }
+    EXPECT_GT(mis, 0);
+    EXPECT_GT(bsdf, 0);
+    ASSERT_TRUE(save("Save picture", "race.png")) << log();
+    EXPECT_GT(image::readImage(saved("race.png")).width, 200u);
+    ASSERT_TRUE(save("Save run file", "race.json")) << log();
+    const bench::Suite suite = bench::loadSuite(saved("race.json").string());
+    const std::vector<bench::Config> configs = bench::combinations(suite.experiments.front(), 4);
+    ASSERT_EQ(configs.size(), 2u);
+    EXPECT_EQ(configs[0].scene, scene_.string());
+    EXPECT_EQ(configs[0].settings.width, 64u);
+    EXPECT_EQ(configs[0].settings.lightSampling, app::LightSampling::Mis);
+    EXPECT_EQ(configs[1].settings.lightSampling, app::LightSampling::Bsdf);
+    key("F5"); // the film comes back
+    EXPECT_TRUE(eventually([this] { return !isShown("race over", {0, 0, kSide, kHeight}); }, kSeen));
+    expectCleanEnd();
+}
+
+} // namespace
+} // namespace rt::test
