@@ -17,6 +17,22 @@ void addToName(std::string& name, const std::string& part) {
     name += (name.empty() ? "" : ", ") + part;
 }
 
+// After that time; of a curve that begins later as far as it is when error x time stays what it is at its end. 0: there
+// is no curve.
+double errorBy(const std::vector<ErrorPoint>& curve, double seconds) {
+    if (curve.empty()) return 0;
+    return errorAt(curve, seconds).value_or(curve.back().relmse * curve.back().seconds / seconds);
+}
+
+// How much more time than the leader the entrant takes to the error that it has; none where the leader's curve does not
+// tell when it had that.
+std::optional<double> timeFactor(const std::vector<RaceLane>& lanes, const RaceStanding& standing,
+                                 std::size_t entrant) {
+    const std::optional<double> error = errorAt(lanes[entrant].curve, standing.seconds);
+    const auto seconds = error ? secondsTo(lanes[standing.leader].curve, *error) : std::nullopt;
+    return seconds && *seconds > 0 ? std::optional(standing.seconds / *seconds) : std::nullopt;
+}
+
 std::string threeDigits(double value) {
     char text[32];
     std::snprintf(text, sizeof text, value < 1000 ? "%.3g" : "%.0f", value);
@@ -50,7 +66,12 @@ std::vector<std::string> namesOf(const std::vector<RaceEntrant>& entrants, bool 
         for (std::size_t i = 0; i < names.size(); ++i) addToName(names[i], titles[i][method]);
     }
     if (differ([](const RaceEntrant& e) { return e.isDenoised; }))
-        for (std::size_t i = 0; i < names.size(); ++i) addToName(names[i], entrants[i].isDenoised ? "denoised" : "raw");
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (entrants[i].isDenoised)
+                addToName(names[i], "denoised");
+            else if (names[i].empty())
+                names[i] = "raw";
+        }
     const std::vector<std::string> alike = names;
     for (std::size_t i = 0; i < names.size(); ++i)
         if (names[i].empty() || std::count(alike.begin(), alike.end(), alike[i]) > 1)
@@ -124,28 +145,23 @@ std::optional<RaceStanding> standingOf(const std::vector<RaceLane>& lanes) {
     for (const RaceLane& lane : lanes)
         if (!lane.curve.empty()) standing.seconds = std::min(standing.seconds, lane.curve.back().seconds);
     std::vector<std::pair<double, std::size_t>> errors;
-    for (std::size_t i = 0; i < lanes.size(); ++i) {
-        const std::optional<double> error = errorAt(lanes[i].curve, standing.seconds);
-        if (error && *error > 0) errors.emplace_back(*error, i);
-    }
+    for (std::size_t i = 0; i < lanes.size(); ++i)
+        if (const double error = errorBy(lanes[i].curve, standing.seconds); error > 0) errors.emplace_back(error, i);
     if (errors.size() < 2) return std::nullopt;
     std::sort(errors.begin(), errors.end());
     standing.leader = errors[0].second;
     standing.second = errors[1].second;
-    const std::optional<double> seconds = secondsTo(lanes[standing.leader].curve, errors[1].first);
-    standing.isByTime = seconds && *seconds > 0;
-    standing.factor =
-        std::max(1.0, standing.isByTime ? standing.seconds / *seconds : errors[1].first / errors[0].first);
+    standing.factor = *factorOf(lanes, standing, standing.second);
+    standing.isByTime = timeFactor(lanes, standing, standing.second).has_value();
     return standing;
 }
 
 std::optional<double> factorOf(const std::vector<RaceLane>& lanes, const RaceStanding& standing, std::size_t entrant) {
     if (entrant == standing.leader) return 1;
-    const std::optional<double> error = errorAt(lanes[entrant].curve, standing.seconds);
-    const std::optional<double> best = errorAt(lanes[standing.leader].curve, standing.seconds);
-    if (!error || !best || !(*best > 0)) return std::nullopt;
-    const std::optional<double> seconds = secondsTo(lanes[standing.leader].curve, *error);
-    return seconds && *seconds > 0 ? standing.seconds / *seconds : *error / *best;
+    const double error = errorBy(lanes[entrant].curve, standing.seconds);
+    const double best = errorBy(lanes[standing.leader].curve, standing.seconds);
+    if (!(error > 0) || !(best > 0)) return std::nullopt;
+    return std::max(1.0, timeFactor(lanes, standing, entrant).value_or(error / best));
 }
 
 std::string headlineOf(const std::vector<RaceLane>& lanes, const RaceStanding& standing) {
@@ -154,7 +170,7 @@ std::string headlineOf(const std::vector<RaceLane>& lanes, const RaceStanding& s
     if (standing.factor < kLevel) return leader + " and " + second + " are level" + when;
     const std::string factor = threeDigits(standing.factor);
     if (standing.isByTime) return leader + " leads: same error in 1/" + factor + " of the time of " + second;
-    return leader + " leads: 1/" + factor + " of the error of " + second + when;
+    return leader + " leads: error \u00d7 time 1/" + factor + " of that of " + second;
 }
 
 } // namespace rt::app

@@ -80,9 +80,9 @@ struct RaceStanding {
     bool isByTime =
         true; // the time to the second's error; false: error x time, where the curves have no error in common
 };
-// None while fewer than two have errors at a common time.
+// None while fewer than two have errors.
 std::optional<RaceStanding> standingOf(const std::vector<RaceLane>& lanes);
-// How much more time than the leader each takes to the error that it ends with, by the same measures; 1 for the leader.
+// How far each is behind the leader, by the same measures; 1 for the leader. None: its error is not known.
 std::optional<double> factorOf(const std::vector<RaceLane>& lanes, const RaceStanding& standing, std::size_t entrant);
 // "MIS leads: the same error in 1/3.2 of the time of Off (BSDF only)".
 std::string headlineOf(const std::vector<RaceLane>& lanes, const RaceStanding& standing);

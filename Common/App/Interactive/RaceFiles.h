@@ -6,8 +6,8 @@
 
 namespace rt::app {
 
-// CSV: a line for each point of each curve. `times_leader`, at the last point of each: how much more time than the
-// leader it takes to its error.
+// CSV: a line for each point of each curve. `times_leader`, at the last point of each: how far it is behind the leader,
+// by factorOf().
 std::string raceTable(const RaceState& race, bool isGpu);
 
 // Why no suite can repeat it; null: one can.

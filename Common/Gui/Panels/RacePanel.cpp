@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "Common/App/Interactive/RaceFiles.h"
-#include "Common/App/Interactive/RunGroups.h"
 #include "Common/Gui/Icons.h"
 #include "Common/Gui/Panels/Chart.h"
 #include "Common/Gui/Panels/Panels.h"
@@ -23,8 +22,9 @@ using app::RaceEntrant;
 using app::RaceLane;
 using RacePhase = app::RaceState::Phase;
 
-constexpr float kChartShare = 0.4f, kMinChart = 12, kNarrowPanel = 44; // of the width; in heights of the font
+constexpr float kChartShare = 0.36f, kMinChart = 12, kNarrowPanel = 44; // of the width; in heights of the font
 constexpr Mark kEntrantMarks[] = {Mark::Circle, Mark::Square, Mark::Diamond, Mark::Triangle};
+constexpr double kNoisyReference = 2; // its own error, which is subtracted, may be that part of the least one
 // What most races are about has a column each; the other methods are in a menu.
 constexpr std::string_view kColumnKeys[] = {"light_sampling", "sampler", "light_selection"};
 
@@ -85,7 +85,7 @@ void drawColumns(RaceEntrant& entrant, float width) {
         if (!hasColumn(key)) return;
         ImGui::SetNextItemWidth(width);
         comboField(key, table, value);
-        tooltip(title);
+        tooltip((std::string(title) + ": " + app::titleOf(table, value)).c_str());
         ImGui::SameLine();
     };
     app::forEachMethod(draw, entrant.settings);
@@ -133,7 +133,7 @@ void drawStanding(const Gui& gui, const RaceLane& lane, std::size_t entrant) {
                 errorText(lane.curve.back().relmse);
         const auto standing = app::standingOf(gui.state.race->lanes);
         const auto factor = standing ? app::factorOf(gui.state.race->lanes, *standing, entrant) : std::nullopt;
-        if (factor) text += *factor > 1 ? ", " + factorText(*factor) + " the leader's time" : ", leads";
+        if (factor) text += *factor > 1 ? ", " + factorText(*factor) + " behind" : ", leads";
     }
     if (!lane.trouble.empty()) return wrapped(lane.name + ": " + lane.trouble, errorColor(gui.settings.colorMode));
     ImGui::TextDisabled("%s", elided(text, ImGui::GetContentRegionAvail().x).c_str());
@@ -146,8 +146,7 @@ bool drawEntrant(Gui& gui, std::size_t entrant) {
     RaceEntrant& own = entrants[entrant];
     const RaceLane* lane = laneOf(gui, entrant);
     const float gap = ImGui::GetStyle().ItemSpacing.x, side = ImGui::GetFrameHeight();
-    const float fixed = 3 * side + buttonWidth("...") + buttonWidth("GPU") + ImGui::CalcTextSize("Denoise").x +
-                        ImGui::GetStyle().ItemInnerSpacing.x + 7 * gap;
+    const float fixed = 3 * side + buttonWidth("...") + buttonWidth("GPU") + 7 * gap;
     const float width = std::max(2 * side, std::floor((ImGui::GetContentRegionAvail().x - fixed) / 3));
     bool stays = true;
     ImGui::PushID(static_cast<int>(entrant));
@@ -166,11 +165,9 @@ bool drawEntrant(Gui& gui, std::size_t entrant) {
             ImGui::EndPopup();
         }
         ImGui::SameLine();
-        {
-            const Disabled raw(own.isOther, "pictures of the other program are raw");
-            ImGui::Checkbox("Denoise", &own.isDenoised);
-            tooltip("Its pictures are filtered, and the filter's time counts");
-        }
+        if (iconButton("denoise", Icon::Denoise, "Its pictures are filtered, and the filter's time counts",
+                       {!own.isOther, "pictures of the other program are raw"}, own.isDenoised))
+            own.isDenoised = !own.isDenoised;
         ImGui::SameLine();
         drawProgram(gui, entrant);
         ImGui::SameLine();
@@ -268,11 +265,10 @@ void drawNotes(const Gui& gui) {
              (isShared ? ". This GPU is software: both share the processor" : ""));
     }
     const auto isUncertain = [&gui](const RaceLane& lane) {
-        return !lane.curve.empty() &&
-               app::isReferenceTooNoisy(lane.curve.back().relmse, gui.state.race->referenceError);
+        return !lane.curve.empty() && kNoisyReference * gui.state.race->referenceError > lane.curve.back().relmse;
     };
     if (std::any_of(lanes.begin(), lanes.end(), isUncertain))
-        wrapped("The reference is noisy beside the least error: longer races and references tell more",
+        wrapped("The reference is not much better than the best entrant: take a longer race",
                 noticeColor(gui.settings.colorMode));
 }
 
@@ -319,9 +315,8 @@ void drawRacePanel(Gui& gui) {
     const float width = isNarrow ? all.x : std::floor(kChartShare * all.x);
     ImGui::BeginChild("##entrants", {isNarrow ? 0 : all.x - width - space, isNarrow ? 0.5f * all.y : 0});
     drawStart(gui);
-    besideIfItFits(buttonWidth("Save table"));
-    drawSaves(gui);
     drawEntrants(gui);
+    drawSaves(gui);
     if (gui.state.race) drawNotes(gui);
     ImGui::EndChild();
     if (!isNarrow) ImGui::SameLine(0, space);
