@@ -24,6 +24,7 @@ using RacePhase = app::RaceState::Phase;
 
 constexpr float kChartShare = 0.36f, kMinChart = 12, kNarrowPanel = 44; // of the width; in heights of the font
 constexpr Mark kEntrantMarks[] = {Mark::Circle, Mark::Square, Mark::Diamond, Mark::Triangle};
+constexpr float kMinColumn = 2.5f;    // of a choice beside others, in heights of a row
 constexpr double kNoisyReference = 2; // its own error, which is subtracted, may be that part of the least one
 // What most races are about has a column each; the other methods are in a menu.
 constexpr std::string_view kColumnKeys[] = {"light_sampling", "sampler", "light_selection"};
@@ -83,10 +84,10 @@ bool hasMoreMethods(const RaceEntrant& entrant) {
 void drawColumns(RaceEntrant& entrant, float width) {
     const auto draw = [width](const char* key, const char* title, const char*, const auto& table, auto& value) {
         if (!hasColumn(key)) return;
+        ImGui::SameLine();
         ImGui::SetNextItemWidth(width);
         comboField(key, table, value);
         tooltip((std::string(title) + ": " + app::titleOf(table, value)).c_str());
-        ImGui::SameLine();
     };
     app::forEachMethod(draw, entrant.settings);
 }
@@ -147,14 +148,16 @@ bool drawEntrant(Gui& gui, std::size_t entrant) {
     const RaceLane* lane = laneOf(gui, entrant);
     const float gap = ImGui::GetStyle().ItemSpacing.x, side = ImGui::GetFrameHeight();
     const float fixed = 3 * side + buttonWidth("...") + buttonWidth("GPU") + 7 * gap;
-    const float width = std::max(2 * side, std::floor((ImGui::GetContentRegionAvail().x - fixed) / 3));
+    const float all = ImGui::GetContentRegionAvail().x;
+    const bool isTight = all - fixed < 3 * kMinColumn * side; // the buttons stand below
+    const float width = std::max(side, std::floor((all - (isTight ? side + 3 * gap : fixed)) / 3));
     bool stays = true;
     ImGui::PushID(static_cast<int>(entrant));
     drawShow(gui, entrant, lane != nullptr && gui.state.race->isShown);
-    ImGui::SameLine();
     {
         const Disabled rest(isUnderWay(gui), "the race is under way");
         drawColumns(own, width);
+        if (!isTight) ImGui::SameLine();
         const bool isMarked = hasMoreMethods(own);
         if (isMarked) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
         if (button("...", "The other methods; coloured where one is not at its default", true))
@@ -214,7 +217,7 @@ void drawStart(Gui& gui) {
         }
     }
     const Disabled rest(isUnderWay(gui), "the race is under way");
-    ImGui::SameLine();
+    besideIfItFits(5 * ImGui::GetFontSize() + ImGui::CalcTextSize("s each").x);
     double& seconds = gui.settings.raceSeconds;
     ImGui::SetNextItemWidth(5 * ImGui::GetFontSize());
     ImGui::InputDouble("s each", &seconds, 0, 0, "%g");
@@ -313,13 +316,15 @@ void drawRacePanel(Gui& gui) {
     const float space = ImGui::GetStyle().ItemSpacing.x, font = ImGui::GetFontSize();
     const bool isNarrow = all.x < kNarrowPanel * font; // the chart is below, not beside
     const float width = isNarrow ? all.x : std::floor(kChartShare * all.x);
-    ImGui::BeginChild("##entrants", {isNarrow ? 0 : all.x - width - space, isNarrow ? 0.5f * all.y : 0});
+    if (!isNarrow) ImGui::BeginChild("##entrants", {all.x - width - space, 0});
     drawStart(gui);
     drawEntrants(gui);
     drawSaves(gui);
     if (gui.state.race) drawNotes(gui);
-    ImGui::EndChild();
-    if (!isNarrow) ImGui::SameLine(0, space);
+    if (!isNarrow) {
+        ImGui::EndChild();
+        ImGui::SameLine(0, space);
+    }
     ImGui::BeginGroup();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
