@@ -47,8 +47,8 @@ class ObjectTool {
     void constrain(int axis);
 
     // For a pointer that is there by now: without a constraint objects are moved across the view, turned about its
-    // axis, scaled in all directions. Nothing where the pointer's place says nothing, or is where it began. `isSnapped`:
-    // by whole steps, of moveStep(), 15 degrees or a tenth.
+    // axis, scaled in all directions. Nothing where the pointer's place says nothing, or is where it began.
+    // `isSnapped`: by whole steps, of moveStep(), 15 degrees or a tenth.
     std::optional<Motion> motion(const ViewProjection& view, const glm::dvec2& place, bool isSnapped) const;
 
     // Of lengths about the pivot: 1, 2 or 5 times a power of ten that is some pixels long.
