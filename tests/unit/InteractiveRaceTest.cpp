@@ -90,7 +90,7 @@ TEST_F(InteractiveRaceTest, AnotherViewEndsIt) {
 }
 
 // Is good for a warm-up and one turn.
-class FailingEngine : public SlowEngine {
+class DroppingEngine : public SlowEngine {
   public:
     RenderStatus renderSome(const Budget& budget) override {
         if (++calls_ > 2) throw RenderError("the device was lost");
@@ -105,7 +105,7 @@ TEST_F(InteractiveRaceTest, WhoFailsDropsOutAndTheOthersGoOn) {
     auto with = setup(4);
     int engines = 0;
     with.makeEngine = [&engines](const EngineChoice&) -> std::unique_ptr<Engine> {
-        if (++engines == 3) return std::make_unique<FailingEngine>(); // the second entrant's
+        if (++engines == 3) return std::make_unique<DroppingEngine>(); // the second entrant's
         return std::make_unique<SlowEngine>();
     };
     InteractiveSession session(with);
