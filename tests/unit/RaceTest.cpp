@@ -35,7 +35,7 @@ std::vector<ErrorPoint> curveOf(double scale, double first, double last) {
     return curve;
 }
 
-std::vector<RaceLane> lanesOf(const std::vector<std::vector<ErrorPoint>>& curves) {
+std::vector<RaceLane> raceLanesOf(const std::vector<std::vector<ErrorPoint>>& curves) {
     std::vector<RaceLane> lanes;
     for (std::size_t i = 0; i < curves.size(); ++i) {
         lanes.emplace_back();
@@ -143,7 +143,7 @@ TEST(Race, EntrantsAreNamedByWhatDiffers) {
 }
 
 TEST(RaceStanding, ComparesTheTimeToTheSameError) {
-    const auto lanes = lanesOf({curveOf(4, 1, 64), curveOf(1, 1, 64), curveOf(8, 1, 32)});
+    const auto lanes = raceLanesOf({curveOf(4, 1, 64), curveOf(1, 1, 64), curveOf(8, 1, 32)});
     const auto standing = standingOf(lanes);
     ASSERT_TRUE(standing);
     EXPECT_EQ(standing->leader, 1u);
@@ -158,7 +158,7 @@ TEST(RaceStanding, ComparesTheTimeToTheSameError) {
 
 // Where the leader began below all that the other has reached there is no such time.
 TEST(RaceStanding, ComparesErrorsWhereTheyHaveNoneInCommon) {
-    const auto lanes = lanesOf({curveOf(1, 1, 8), curveOf(100, 1, 8)});
+    const auto lanes = raceLanesOf({curveOf(1, 1, 8), curveOf(100, 1, 8)});
     const auto standing = standingOf(lanes);
     ASSERT_TRUE(standing);
     EXPECT_FALSE(standing->isByTime);
@@ -168,7 +168,7 @@ TEST(RaceStanding, ComparesErrorsWhereTheyHaveNoneInCommon) {
 
 // As of an entrant whose filter takes longer than the others race.
 TEST(RaceStanding, ComparesErrorTimesTimeWhereOneBeginsLater) {
-    const auto lanes = lanesOf({curveOf(1, 1, 2), curveOf(0.25, 4, 8)});
+    const auto lanes = raceLanesOf({curveOf(1, 1, 2), curveOf(0.25, 4, 8)});
     const auto standing = standingOf(lanes);
     ASSERT_TRUE(standing);
     EXPECT_EQ(standing->leader, 1u);
@@ -177,13 +177,13 @@ TEST(RaceStanding, ComparesErrorTimesTimeWhereOneBeginsLater) {
 }
 
 TEST(RaceStanding, TellsWhenNobodyLeads) {
-    const auto lanes = lanesOf({curveOf(1, 1, 8), curveOf(1.02, 1, 8)});
+    const auto lanes = raceLanesOf({curveOf(1, 1, 8), curveOf(1.02, 1, 8)});
     EXPECT_EQ(headlineOf(lanes, *standingOf(lanes)), "A and B are level after 8 s");
-    EXPECT_FALSE(standingOf(lanesOf({curveOf(1, 1, 8), {}})));
+    EXPECT_FALSE(standingOf(raceLanesOf({curveOf(1, 1, 8), {}})));
     EXPECT_FALSE(standingOf({}));
 }
 
-RaceState stateOf(std::vector<RaceEntrant> entrants) {
+RaceState raceOf(std::vector<RaceEntrant> entrants) {
     RaceState state;
     Race race({std::move(entrants), 8}, false);
     state.lanes = race.lanes();
@@ -205,7 +205,7 @@ RaceState stateOf(std::vector<RaceEntrant> entrants) {
 }
 
 TEST(RaceFiles, TheTableHasALineForEachPoint) {
-    const std::string table = raceTable(stateOf(twoEntrants().entrants), false);
+    const std::string table = raceTable(raceOf(twoEntrants().entrants), false);
     std::istringstream lines(table);
     std::string line;
     std::getline(lines, line);
@@ -225,7 +225,7 @@ TEST(RaceFiles, TheSuiteRepeatsTheEntrants) {
     const std::vector<RaceEntrant> entrants{entrantWith(LightSampling::Mis, SamplerKind::Stratified),
                                             entrantWith(LightSampling::Bsdf, SamplerKind::Sobol, true),
                                             entrantWith(LightSampling::Mixture)};
-    RaceState state = stateOf(entrants);
+    RaceState state = raceOf(entrants);
     state.lanes[2].entrant.isOther = true;
     state.lanes[2].engine = "query";
     state.work.threads = 1;
@@ -261,7 +261,7 @@ TEST(RaceFiles, TheSuiteRepeatsTheEntrants) {
 }
 
 TEST(RaceFiles, WhatASuiteCannotSayIsTold) {
-    const RaceState plain = stateOf(twoEntrants().entrants);
+    const RaceState plain = raceOf(twoEntrants().entrants);
     RaceState state = plain;
     state.work.request.edits = 1;
     EXPECT_NE(whyNoSuite(state), nullptr);
