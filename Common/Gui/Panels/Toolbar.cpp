@@ -14,7 +14,7 @@ namespace {
 using app::Activity;
 
 constexpr const char* kNoPicture = "there is no picture yet";
-constexpr int kRightIcons = 6; // comparison, race, statistics, panels, help, errors
+constexpr int kRightIcons = 6; // race, comparison, statistics, panels, help, errors
 
 float gap() {
     return ImGui::GetStyle().ItemInnerSpacing.x;
@@ -140,12 +140,12 @@ void drawDenoise(Gui& gui, float width) {
 
 void drawRight(Gui& gui) {
     app::GuiSettings& settings = gui.settings;
-    if (iconButton("comparison", Icon::Chart, "Comparison of runs (F3)", true, settings.showComparison))
-        gui.toggleComparison();
-    beside();
     if (iconButton("race", Icon::Flag, "Race of several settings, each for the same time (F5)", true,
                    settings.showRace))
         gui.toggleRace();
+    beside();
+    if (iconButton("comparison", Icon::Chart, "Comparison of runs (F3)", true, settings.showComparison))
+        gui.toggleComparison();
     beside();
     const bool areFiguresOpen = settings.showPanels && settings.showStatistics && settings.openPanels["statistics"];
     if (iconButton("statistics", Icon::Figures, "Statistics (F2)", true, areFiguresOpen)) gui.toggleStatistics();
