@@ -13,8 +13,9 @@
 namespace rt::gui {
 namespace {
 
-constexpr float kPlace = 5.6f;        // the width of a material's place at least, in heights of the font
+constexpr float kPlace = 4.6f;        // the width of a material's place at least, in heights of the font
 constexpr float kPlaceMargin = 0.25f; // around what is in it
+constexpr float kListHeight = 17;     // two rows and the name of a group: what is below stays in sight
 
 void drawPicture(Gui& gui, const app::MaterialPreset& preset, ImVec2 corner, float side) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -118,6 +119,7 @@ void drawMaterialLibrary(Gui& gui) {
     ImGui::SetNextItemWidth(-1);
     inputText("##materials", "Search materials", gui.materials.search);
     const std::vector<app::MaterialPreset>& presets = materialPresets(gui);
+    ImGui::BeginChild("##library", {0, kListHeight * ImGui::GetFontSize()}, true);
     bool hasAny = false;
     for (std::size_t first = 0, last = 0; first < presets.size(); first = last) {
         while (last < presets.size() && presets[last].group == presets[first].group) ++last;
@@ -126,6 +128,7 @@ void drawMaterialLibrary(Gui& gui) {
     if (!hasAny)
         note(presets.empty() ? "There is no library: the folder materials of the assets is missing"
                              : "No material of that name");
+    ImGui::EndChild();
 }
 
 } // namespace rt::gui

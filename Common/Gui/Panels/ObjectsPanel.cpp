@@ -182,8 +182,9 @@ void drawObjectsPanel(Gui& gui) {
     drawCommands(gui);
     drawGizmoRow(gui);
     drawObjectTree(gui);
-    if (gui.editor.selection()) drawSelectionPart(gui);
+    // Above what is selected, whose fields are more or fewer with each material that it gets.
     if (ImGui::CollapsingHeader("Material library")) drawMaterialLibrary(gui);
+    if (gui.editor.selection()) drawSelectionPart(gui);
     if (ImGui::CollapsingHeader("Sky")) drawSkyFields(gui);
     const scene::CameraDesc& view = gui.camera.camera();
     if (button("View to scene", "What is seen now becomes the scene's own camera",
