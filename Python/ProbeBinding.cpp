@@ -1,11 +1,11 @@
-// Maps of densities over the sphere of directions.
+// Maps of densities and light over the sphere of directions.
 #include <cstdint>
 #include <optional>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <string>
 
-#include "Common/Probe/Probe.h"
+#include "Common/Probe/DirectionMap.h"
 #include "Python/Arrays.h"
 #include "Python/Bindings.h"
 #include "Python/Scene.h"
@@ -24,10 +24,21 @@ probe::Strategy strategyNamed(const Scene& scene, const std::string& name) {
     throw py::value_error("strategy: expected bsdf, lights, mixture, mis or the index of a light; got " + name);
 }
 
+probe::Quantity quantityNamed(const std::string& name) {
+    std::string known;
+    for (const auto& row : probe::kQuantities) {
+        if (row.name == name) return row.value;
+        known += (known.empty() ? "" : ", ") + std::string(row.name);
+    }
+    throw py::value_error("show: expected one of " + known + "; got " + name);
+}
+
 // The map and, in the scene's coordinates of the world, position, normal and wo. The pixel is one of the image's.
 py::tuple probeMap(const Scene& scene, std::uint32_t x, std::uint32_t y, const std::string& strategyName,
-                   std::uint32_t height, std::uint32_t side) {
+                   std::uint32_t height, std::uint32_t side, const std::string& show, std::uint32_t paths,
+                   std::uint32_t seed) {
     const probe::Strategy strategy = strategyNamed(scene, strategyName);
+    const probe::MapSettings settings{quantityNamed(show), probe::Projection::Sphere, height, side, paths};
     std::optional<probe::Probe> at;
     std::string why;
     probe::DirectionMap map;
@@ -35,18 +46,18 @@ py::tuple probeMap(const Scene& scene, std::uint32_t x, std::uint32_t y, const s
         const py::gil_scoped_release released;
         at = probe::Probe::at(scene, x, y);
         if (at) why = at->whyNoDensity(strategy);
-        if (at && why.empty()) map = probe::mapOf(*at, strategy, height, side);
+        if (at && why.empty()) map = probe::mapOf(*at, strategy, settings, seed);
     }
     if (!at)
         throw py::value_error("x, y: expected a pixel that shows a surface; got " + std::to_string(x) + ", " +
                               std::to_string(y) + ", which shows none");
     if (!why.empty()) throw py::value_error("strategy: " + why);
-    NewFloats density(map.density.size()), place(3, 3);
-    for (std::size_t i = 0; i < map.density.size(); ++i) density.set(i, map.density[i]);
+    NewFloats values(map.values.size()), place(3, 3);
+    for (std::size_t i = 0; i < map.values.size(); ++i) values.set(i, map.values[i]);
     place.set(0, at->position());
     place.set(1, at->vertex().shading);
     place.set(2, at->vertex().wo);
-    return py::make_tuple(density.array, place.array);
+    return py::make_tuple(values.array, place.array);
 }
 
 } // namespace

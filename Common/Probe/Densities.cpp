@@ -32,6 +32,13 @@ float lightDensity(const SceneFormulas& scene, const Light& light, const shared:
     return lightPdfAlong(kFeatureAll, scene.params(), light, position, normal, time, direction);
 }
 
+bool isHiddenByItself(const Light& light, const shared::vec3& position, float time, const LightSample& sampled) {
+    constexpr float kRounding = 1e-4f;
+    if (!isRoundLight(kFeatureAll, light)) return false;
+    const float first = intersectRoundLight(light, position, time, sampled.wi).distance;
+    return first > 0.0f && first < sampled.distance * (1.0f - kRounding);
+}
+
 float lightsDensity(const SceneFormulas& scene, const LightContext& context, float time,
                     const shared::vec3& direction) {
     float sum = 0.0f;

@@ -20,6 +20,11 @@ float probabilityOf(const SceneFormulas& scene, shared::uint light, const shared
 float lightDensity(const SceneFormulas& scene, const shared::Light& light, const shared::vec3& position,
                    const shared::vec3& normal, float time, const shared::vec3& direction);
 
+// Whether the light's own near side hides the point that was sampled on it, as by area the far wall of a cylinder: the
+// density in that direction is that of the near side.
+bool isHiddenByItself(const shared::Light& light, const shared::vec3& position, float time,
+                      const shared::LightSample& sampled);
+
 // Per steradian, of choosing a light and sampling it: the sum over all lights. For a context as probabilityOf().
 float lightsDensity(const SceneFormulas& scene, const shared::LightContext& context, float time,
                     const shared::vec3& direction);

@@ -5,77 +5,82 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "Common/Shared/Base/Sampling.h"
-
 namespace rt::probe {
 
 using shared::vec3;
 
 namespace {
 
-constexpr std::size_t kDots = 512;    // at most: the density is to be seen between them
-const vec3 kInk(0.85f, 0.25f, 0.05f); // of dots
-const vec3 kPaper(0.02f, 0.02f, 0.03f);
+const vec3 kInk(0.85f, 0.25f, 0.05f);   // of dots
+const vec3 kEdge(0.03f, 0.18f, 0.16f);  // of strata
+const vec3 kPaper(0.02f, 0.02f, 0.03f); // outside of the hemisphere
 
-void paint(image::Image& picture, std::uint32_t x, std::uint32_t y, const vec3& color) {
+void put(image::Image& picture, std::uint32_t x, std::uint32_t y, const vec3& color) {
     float* pixel = picture.pixel(x, y);
     for (int c = 0; c < 3; ++c) pixel[c] = color[c];
 }
 
-// The direction of a point of the unit disk, whose rim is the horizon.
-vec3 hemisphereDirection(const shared::Frame& frame, double x, double y) {
-    const double squared = x * x + y * y; // 1 - cosine
-    const double share = std::sqrt(std::max(0.0, 2 - squared));
-    return shared::toWorld(
-        frame, vec3(static_cast<float>(x * share), static_cast<float>(y * share), static_cast<float>(1 - squared)));
+// Pixels of a map that begins at the column `left`.
+struct Part {
+    const DirectionMap& map;
+    std::uint32_t left;
+};
+
+void putAt(image::Image& picture, const Part& part, const vec3& direction, const vec3& color) {
+    const auto place = part.map.placeOf(direction);
+    if (!place) return;
+    const auto cell = static_cast<std::uint32_t>(part.map.cellAt(*place)), width = part.map.width();
+    put(picture, part.left + cell % width, cell / width, color);
 }
 
-// The reverse; nothing below the horizon.
-std::optional<glm::dvec2> hemispherePoint(const shared::Frame& frame, const vec3& direction) {
-    const vec3 local = shared::toLocal(frame, direction);
-    if (!(local.z > 0.0f)) return std::nullopt;
-    const double share = 1 / std::sqrt(1.0 + local.z);
-    return glm::dvec2(local.x * share, local.y * share);
-}
-
-std::uint32_t pixelAt(double share, std::uint32_t size) {
-    return std::min(static_cast<std::uint32_t>(std::max(0.0, share) * size), size - 1);
+void drawEdges(image::Image& picture, const Part& part, const ProbeResult& result) {
+    constexpr int kSteps = 8; // between two points
+    for (const auto& line : result.edges)
+        for (std::size_t i = 0; i + 1 < line.size(); ++i)
+            for (int step = 0; step < kSteps; ++step) {
+                const float share = static_cast<float>(step) / kSteps;
+                putAt(picture, part, shared::normalize(line[i] * (1 - share) + line[i + 1] * share), kEdge);
+            }
 }
 
 } // namespace
 
-image::Image pictureOf(const Probe& probe, const Strategy& strategy, const DirectionMap& map,
-                       std::span<const std::optional<vec3>> drawn) {
-    const std::uint32_t side = map.height;
-    image::Image picture(3 * side, side);
-    const float peak = map.density.empty() ? 0.0f : *std::max_element(map.density.begin(), map.density.end());
-    const auto grey = [peak](float density) {
-        return vec3(peak > 0.0f ? std::sqrt(std::min(density / peak, 1.0f)) : 0.0f);
-    };
-    const shared::Frame frame = shared::makeFrame(probe.vertex().shading);
-    for (std::uint32_t y = 0; y < side; ++y) {
-        for (std::uint32_t x = 0; x < 2 * side; ++x)
-            paint(picture, x, y, grey(map.density[std::size_t{y} * 2 * side + x]));
-        for (std::uint32_t x = 0; x < side; ++x) {
-            const double right = 2 * (x + 0.5) / side - 1, up = 1 - 2 * (y + 0.5) / side;
-            const bool isAbove = right * right + up * up < 1;
-            const vec3 color = isAbove ? grey(probe.density(strategy, hemisphereDirection(frame, right, up))) : kPaper;
-            paint(picture, 2 * side + x, y, color);
+image::Image paint(const DirectionMap& map, float scale, std::uint32_t width, std::uint32_t height) {
+    image::Image picture(width, height);
+    const float peak = map.maximum() / scale;
+    for (std::uint32_t y = 0; y < height; ++y)
+        for (std::uint32_t x = 0; x < width; ++x) {
+            const glm::dvec2 place((x + 0.5) / width, (y + 0.5) / height);
+            const glm::dvec2 fromMiddle = 2.0 * place - 1.0;
+            const bool isOutside = map.projection == Projection::Hemisphere && glm::dot(fromMiddle, fromMiddle) >= 1;
+            const float value = map.values.empty() ? 0.0f : map.values[map.cellAt(place)];
+            const float grey = peak > 0 ? std::sqrt(std::min(value / peak, 1.0f)) : 0.0f;
+            put(picture, x, y, isOutside ? kPaper : vec3(grey));
         }
-    }
-    for (const std::optional<vec3>& direction : drawn.first(std::min(drawn.size(), kDots))) {
-        if (!direction) continue;
-        const auto cell = static_cast<std::uint32_t>(map.cellOf(*direction));
-        paint(picture, cell % (2 * side), cell / (2 * side), kInk);
-        if (const auto point = hemispherePoint(frame, *direction))
-            paint(picture, 2 * side + pixelAt((point->x + 1) / 2, side), pixelAt((1 - point->y) / 2, side), kInk);
+    return picture;
+}
+
+image::Image pictureOf(const ProbeResult& result) {
+    std::uint32_t width = 0;
+    for (const DirectionMap& map : result.maps) width += map.width();
+    image::Image picture(width, result.settings.rows);
+    std::uint32_t left = 0;
+    for (const DirectionMap& map : result.maps) {
+        const image::Image painted = paint(map, 1, map.width(), map.height);
+        for (std::uint32_t y = 0; y < map.height; ++y)
+            std::copy_n(painted.pixel(0, y), std::size_t{3} * map.width(), picture.pixel(left, y));
+        const Part part{map, left};
+        drawEdges(picture, part, result);
+        for (const Drawn& drawn : result.shown)
+            if (drawn.direction) putAt(picture, part, *drawn.direction, kInk);
+        left += map.width();
     }
     return picture;
 }
 
 image::Image imageOf(const DirectionMap& map) {
-    image::Image image(2 * map.height, map.height, 1);
-    image.data = map.density;
+    image::Image image(map.width(), map.height, 1);
+    image.data = map.values;
     return image;
 }
 

@@ -32,14 +32,15 @@ std::shared_ptr<SceneFormulas> SceneFormulas::with(app::Options options) const {
     return scene;
 }
 
-const accel::AccelView& SceneFormulas::accel() const {
+bool SceneFormulas::prepare(const std::atomic<bool>& cancel) const {
     const std::scoped_lock lock(accel_->mutex);
-    if (!accel_->built) {
-        const scene::CompiledScene& s = *compiled_;
-        const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
-                                      s.triangles, s.geometries,    s.instances};
-        accel_->built = accel::CpuAccel::build(input, {});
-    }
+    if (!accel_->built) accel_->built = accel::CpuAccel::build(accel::inputOf(*compiled_), {}, &cancel);
+    return accel_->built != nullptr;
+}
+
+const accel::AccelView& SceneFormulas::accel() const {
+    static const std::atomic<bool> isNever{false};
+    prepare(isNever);
     return accel_->built->view();
 }
 

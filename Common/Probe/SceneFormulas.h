@@ -1,10 +1,12 @@
 // A compiled scene with what its rays and formulas need.
 #pragma once
 #include <array>
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <optional>
 
+#include "Common/Accel/AccelInput.h"
 #include "Common/Accel/CpuAccel.h"
 #include "Common/Accel/Traverse/RayQuery.h"
 #include "Common/App/Options/Options.h"
@@ -30,6 +32,8 @@ class SceneFormulas {
     const shared::Camera& camera() const { return camera_; }
     shared::Features features() const { return features_; } // of the scene and the methods that the options ask for
     const accel::AccelView& accel() const;
+    // Builds the acceleration structure, unless it is there; false: *cancel became true first.
+    bool prepare(const std::atomic<bool>& cancel) const;
 
     // Between coordinates as authored and those of the compiled scene, which begin at its camera.
     shared::vec3 toScene(const shared::vec3& world) const;

@@ -1,4 +1,4 @@
-"""What light sampling does at a point: the density of a strategy over the sphere of directions."""
+"""What light sampling does at a point: densities and light over the sphere of directions."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from ._scene import Compiled
 
 
 class Probe(NamedTuple):
-    """The density of a strategy at what a pixel shows. The map is a cylinder of equal areas: rows from +Y to -Y by the
+    """A quantity over the directions at what a pixel shows. The map is a cylinder of equal areas: rows from +Y to -Y by the
     direction's height, columns as of sky images, with +X in the middle, so that every cell has one solid angle."""
 
-    map: np.ndarray  #: (height, 2 height) float32: mean density of each cell, per steradian
+    map: np.ndarray  #: (height, 2 height) float32: mean of each cell; of a density per steradian
     directions: np.ndarray  #: (height, 2 height, 3) unit: the middle of each cell
     position: np.ndarray  #: (3,) of the surface, world units
     normal: np.ndarray  #: (3,) unit, towards the camera
@@ -23,7 +23,7 @@ class Probe(NamedTuple):
 
     @property
     def integral(self) -> float:
-        """Of the map over all directions: 1, less what the strategy drops, as samples below the horizon."""
+        """Of the map over all directions; of a density 1, less what the strategy drops, as samples below the horizon."""
         return float(self.map.mean(dtype=np.float64)) * 4 * math.pi
 
 
@@ -36,15 +36,21 @@ def cell_directions(height: int) -> np.ndarray:
                      -radius * np.sin(angle)], -1).astype(np.float32)
 
 
-def probe(scene: Compiled, x: int, y: int, strategy: str | int = "lights", height: int = 128, side: int = 4) -> Probe:
+def probe(scene: Compiled, x: int, y: int, strategy: str | int = "lights", height: int = 128, side: int = 4,
+          show: str = "pdf", paths: int = 16, seed: int = 0) -> Probe:
     """The map of what a strategy does at the surface in the middle of pixel x, y of scene.compile().
 
     strategy: "bsdf"; "lights": a light is chosen and its shape sampled, by the flags that the scene was compiled for;
-    the index of a light: its shape alone; "mixture" and "mis": half of either. A cell's density is the mean over
-    side * side places in it. Raises ValueError where the pixel shows no surface, or one without a density, as mirrors.
+    the index of a light: its shape alone; "mixture" and "mis": half of either. show: "pdf", the strategy's density;
+    "radiance", that arrives, its luminance; "product", of radiance, bsdf and cosine; "mis-weight", of a sample of the
+    strategy against those of the other one. A cell's value is the mean over side * side places in it, or where rays
+    are traced of as many paths, whose numbers follow from the seed. Raises ValueError where the pixel shows no surface,
+    or one without a density, as mirrors.
     """
     if not (1 <= height <= 4096 and 1 <= side <= 64):
         raise ValueError(f"height, side: expected 1 to 4096 rows and 1 to 64 places; got {height}, {side}")
+    if not (1 <= paths <= 65536 and 0 <= seed < 2**32):
+        raise ValueError(f"paths, seed: expected 1 to 65536 paths and a seed of 32 bits; got {paths}, {seed}")
     scene.camera_rays(x, y)  # which raises where there is no such pixel
-    density, place = _core.probe_map(scene._core, x, y, str(strategy), height, side)
-    return Probe(density.reshape(height, 2 * height), cell_directions(height), *place)
+    values, place = _core.probe_map(scene._core, x, y, str(strategy), height, side, show, paths, seed)
+    return Probe(values.reshape(height, 2 * height), cell_directions(height), *place)

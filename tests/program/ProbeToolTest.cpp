@@ -108,6 +108,25 @@ TEST_F(ProbeTool, WritesPicturesAndMaps) {
     EXPECT_EQ(below, 0u);
 }
 
+// What the map is of, and where numbers come from.
+TEST_F(ProbeTool, ShowsLightAndStrata) {
+    EXPECT_EQ(probe("20,20", "lights", {"-o", "light.pfm", "--rows", "64", "--show", "radiance"}).exitCode, 0);
+    const image::Image light = image::readImage(path("light.pfm"));
+    EXPECT_NEAR(*std::max_element(light.data.begin(), light.data.end()), 9, 1e-3) << "of the lamps";
+    EXPECT_EQ(probe("20,20", "bsdf", {"-o", "weight.pfm", "--rows", "64", "--show", "mis-weight"}).exitCode, 0);
+    const image::Image weight = image::readImage(path("weight.pfm"));
+    EXPECT_EQ(*std::max_element(weight.data.begin(), weight.data.end()), 1) << "where no lamp is";
+
+    const Outcome strata = probe("20,20", "1", {"-o", "a.png", "--sampler", "stratified", "--strata", "8", "--json"});
+    ASSERT_EQ(strata.exitCode, 0) << strata.err;
+    const nlohmann::json found = nlohmann::json::parse(strata.out);
+    EXPECT_EQ(found["sampler"], "stratified");
+    EXPECT_GT(found["chi_square"]["p"], 0.5) << "better than by chance";
+    EXPECT_EQ(found["chi_square_growth"].back()[0], 4096);
+    EXPECT_TRUE(failsWith(probe("20,20", "bsdf", {"--show", "dark"}), 2, "pdf|radiance|product|mis-weight"));
+    EXPECT_TRUE(failsWith(probe("20,20", "bsdf", {"--strata", "0"}), 2, "--strata"));
+}
+
 TEST_F(ProbeTool, SameSeedSameFiguresAndLinesForReaders) {
     EXPECT_EQ(probe("20,20", "mis", {"--json"}).out, probe("20,20", "mis", {"--json"}).out);
     EXPECT_NE(probe("20,20", "mis", {"--json", "--seed", "1"}).out, probe("20,20", "mis", {"--json"}).out);

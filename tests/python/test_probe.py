@@ -69,6 +69,23 @@ class Probes(unittest.TestCase):
         bsdf = self.scene.eval_bsdf("floor", probe.normal, probe.wo, directions)[1]
         np.testing.assert_allclose(probe.map.reshape(-1), (lights + bsdf) / 2, rtol=1e-4, atol=1e-6)
 
+    def test_light_that_arrives(self):
+        radiance = rt.probe(self.scene, 20, 20, show="radiance", height=64, paths=4)
+        lamp = rt.probe(self.scene, 20, 20, 0, height=64)
+        np.testing.assert_allclose(radiance.map[lamp.map > 0.9 * lamp.map.max()], 9, rtol=1e-4)
+        self.assertEqual(radiance.map[radiance.directions @ radiance.normal < -0.1].max(), 0)
+        product = rt.probe(self.scene, 20, 20, show="product", height=64, paths=4)
+        cosine = np.maximum(product.directions @ product.normal, 0)
+        inside = lamp.map > 0.9 * lamp.map.max()
+        np.testing.assert_allclose(product.map[inside], (9 * 0.5 / np.pi * cosine)[inside], rtol=0.05)
+        again = rt.probe(self.scene, 20, 20, show="product", height=64, paths=4)
+        np.testing.assert_array_equal(product.map, again.map)
+
+    def test_weights_of_both_strategies_are_one(self):
+        lights = rt.probe(self.scene, 20, 20, "lights", height=32, side=1, show="mis-weight")
+        bsdf = rt.probe(self.scene, 20, 20, "bsdf", height=32, side=1, show="mis-weight")
+        np.testing.assert_allclose((lights.map + bsdf.map)[lights.directions @ lights.normal > 0.05], 1, rtol=1e-5)
+
     def test_it_is_that_of_the_program(self):
         with tempfile.TemporaryDirectory() as folder:
             scene, output = (str(pathlib.Path(folder) / name) for name in ("room.json", "map.pfm"))
@@ -94,6 +111,10 @@ class Probes(unittest.TestCase):
                 "type": "metal", "albedo": [1, 1, 1], "fuzz": 0}}}).compile(width=40), 20, 20, "bsdf")
         with self.assertRaisesRegex(ValueError, "^height, side: expected"):
             rt.probe(self.scene, 20, 20, height=0)
+        with self.assertRaisesRegex(ValueError, "^show: expected one of pdf, radiance"):
+            rt.probe(self.scene, 20, 20, show="light")
+        with self.assertRaisesRegex(ValueError, "^paths, seed: expected"):
+            rt.probe(self.scene, 20, 20, paths=0)
 
 
 if __name__ == "__main__":

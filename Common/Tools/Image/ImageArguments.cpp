@@ -13,6 +13,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Image/Film.h"
 #include "Common/Manual/Parse.h"
+#include "Common/Probe/ProbeNames.h"
 #include "Common/Render/Names.h"
 
 namespace rt::tools {
@@ -117,6 +118,7 @@ void addProbeSettings(CLI::App& probe, ProbeArguments& arguments) {
 
 void addProbe(CLI::App& app, ImageArguments& arguments) {
     constexpr std::uint32_t kMaxRows = 4096, kMaxSamples = 10000000, kMaxSeed = 0xffffffff;
+    constexpr std::uint32_t kMaxPaths = 65536, kMaxStrata = 256;
     CLI::App& probe = *app.add_subcommand(
         "probe",
         "Show what light sampling does at the surface that a pixel shows: the density of a strategy over all "
@@ -129,13 +131,19 @@ void addProbe(CLI::App& app, ImageArguments& arguments) {
             "index of a light, whose shape alone is sampled",
             false);
     addFile(probe, "--output,-o", arguments.output, kWritable,
-            "the picture; as .exr, .hdr and .pfm the density alone, per steradian", false);
+            "the picture; as .exr, .hdr and .pfm the map alone, of the density per steradian", false);
+    addName(probe, "--show", values.show, probe::kQuantities, "what the map is of");
     probe.add_flag("--json", values.json, "print the figures as JSON");
     addProbeSettings(probe, values);
     addWhole(probe, "--rows", values.rows, 8, kMaxRows, "of the map, which has twice as many columns")
         .capture_default_str();
+    addWhole(probe, "--paths", values.paths, 1, kMaxPaths, "of a cell, where radiance is traced").capture_default_str();
     addWhole(probe, "--samples", values.samples, 2, kMaxSamples, "to draw, and to estimate variances from")
         .capture_default_str();
+    addName(probe, "--sampler", values.sampler, probe::kProbeSamplers, "where the samples' numbers come from");
+    addWhole(probe, "--strata", values.strata, 1, kMaxStrata,
+             "cells a side of the numbers' unit square, for stratified samples; the picture then shows their edges")
+        .default_str("8");
     addWhole(probe, "--seed", values.seed, 0, kMaxSeed, "the same seed draws the same samples").capture_default_str();
 }
 

@@ -42,7 +42,9 @@ struct ProbeArguments {
     std::string strategy = "lights";
     std::string camera;
     std::uint32_t width = 0, height = 0; // of the image that the pixel is of; 0: as the programs' flags
-    std::uint32_t rows = 128, samples = 4096;
+    std::string show, sampler;           // empty: by default
+    std::uint32_t rows = 128, samples = 4096, paths = 16;
+    std::uint32_t strata = 0; // 0: edges are not drawn
     std::uint32_t seed = 0;
     bool json = false;
     std::string sphereLight, quadLight, triangleLight, lightSelection; // empty: by default

@@ -8,24 +8,19 @@
 #include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/ImageIo.h"
-#include "Common/Probe/ChiSquare.h"
-#include "Common/Probe/Probe.h"
-#include "Common/Probe/ProbePicture.h"
+#include "Common/Probe/ProbeReport.h"
 #include "Common/Render/Names.h"
 
 namespace rt::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::uint32_t kSide = 4; // places of a cell, squared
 
 // The table's value of that name, which the parser has checked; what it is without a name.
 template <class E, std::size_t N>
@@ -62,34 +57,19 @@ std::pair<std::uint32_t, std::uint32_t> pixelOf(const std::string& text, const a
     return {x, y};
 }
 
-Json numbers(const shared::vec3& v) {
-    return {v.x, v.y, v.z};
-}
-
-// Whether the samples follow the map.
-Json testOf(const probe::DirectionMap& map, const std::vector<std::optional<shared::vec3>>& drawn) {
-    std::vector<double> counts(map.density.size());
-    for (const auto& direction : drawn)
-        if (direction) ++counts[map.cellOf(*direction)];
-    const std::vector<double> expectations(map.density.begin(), map.density.end());
-    const auto test = probe::chiSquare(counts, expectations);
-    if (!test) return nullptr;
-    return {{"statistic", test->statistic}, {"degrees", test->degrees}, {"p", test->p}};
-}
-
-// Of every strategy that has a density here.
-Json estimatesOf(const probe::Probe& at, std::size_t samples, probe::Probe::Random& random) {
-    static constexpr std::pair<const char*, probe::StrategyKind> kAll[] = {{"bsdf", probe::StrategyKind::Bsdf},
-                                                                           {"lights", probe::StrategyKind::Lights},
-                                                                           {"mixture", probe::StrategyKind::Mixture},
-                                                                           {"mis", probe::StrategyKind::Mis}};
-    Json estimates = Json::object();
-    for (const auto& [name, kind] : kAll) {
-        if (!at.whyNoDensity({kind}).empty()) continue;
-        const probe::DirectEstimate estimate = at.estimate({kind}, samples, random);
-        estimates[name] = {{"mean", estimate.mean}, {"variance", estimate.variance}};
-    }
-    return estimates;
+probe::ProbeSettings settingsOf(const ProbeArguments& asked, const probe::Strategy& strategy) {
+    probe::ProbeSettings settings;
+    settings.strategy = strategy;
+    settings.quantity = named(probe::kQuantities, asked.show, settings.quantity);
+    settings.projections = {probe::Projection::Sphere, probe::Projection::Hemisphere};
+    settings.rows = asked.rows;
+    settings.paths = asked.paths;
+    settings.samples = asked.samples;
+    settings.numbers.kind = named(probe::kProbeSamplers, asked.sampler, settings.numbers.kind);
+    settings.numbers.seed = asked.seed;
+    settings.showsStrata = asked.strata > 0;
+    if (settings.showsStrata) settings.numbers.strata = asked.strata;
+    return settings;
 }
 
 // "key value" a line; of what holds more, "key.key value".
@@ -127,27 +107,11 @@ void runProbe(const ImageArguments& arguments, std::ostream& out) {
     if (const std::string why = at->whyNoDensity(*strategy); !why.empty())
         throw InputError(asked.scene + ": pixel " + asked.pixel + ", strategy " + asked.strategy + ": " + why);
 
-    probe::Probe::Random random(asked.seed);
-    const auto drawn = at->draw(*strategy, asked.samples, random);
-    const probe::DirectionMap map = probe::mapOf(*at, *strategy, asked.rows, kSide);
-    const auto dropped = std::count(drawn.begin(), drawn.end(), std::nullopt);
-    const Json figures = {{"version", 1},
-                          {"scene", scene.compiled()->id},
-                          {"pixel", {x, y}},
-                          {"strategy", asked.strategy},
-                          {"position", numbers(at->position())},
-                          {"normal", numbers(at->vertex().shading)},
-                          {"material", scene.compiled()->materialNames[at->material()]},
-                          {"lights", lights},
-                          {"integral", map.integral()},
-                          {"samples", asked.samples},
-                          {"dropped", dropped},
-                          {"chi_square", testOf(map, drawn)},
-                          {"estimates", estimatesOf(*at, asked.samples / 2 * 2, random)}};
-    if (!arguments.output.empty())
-        image::writeImage(arguments.output, image::isDisplayReferred(arguments.output)
-                                                ? probe::pictureOf(*at, *strategy, map, drawn)
-                                                : probe::imageOf(map));
+    probe::ProbeRun work(*at, settingsOf(asked, *strategy));
+    while (!work.isDone()) work.advance();
+    const probe::ProbeResult result = work.result();
+    const Json figures = probe::figuresOf(result, scene.compiled()->id, {x, y});
+    if (!arguments.output.empty()) probe::writePicture(arguments.output, result);
     if (asked.json)
         out << figures.dump(2) << '\n';
     else

@@ -1,0 +1,156 @@
+#include "Common/Probe/DirectionMap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace rt::probe {
+
+using namespace rt::shared;
+
+namespace {
+
+constexpr float kUnequal = 0.2f;           // of the most that a cell's places have
+constexpr std::uint32_t kFiner = 4;        // as many places, squared, where they are unequal
+constexpr std::size_t kRefinedAtOnce = 16; // cells
+
+} // namespace
+
+double DirectionMap::integral() const {
+    double sum = 0;
+    for (const float value : values) sum += value;
+    // A disk of the area pi, in a square of the area 4, is half of all directions.
+    const double solidAngle = projection == Projection::Sphere ? 4 * std::numbers::pi : 8;
+    return values.empty() ? 0 : sum / static_cast<double>(values.size()) * solidAngle;
+}
+
+float DirectionMap::maximum() const {
+    return values.empty() ? 0.0f : *std::max_element(values.begin(), values.end());
+}
+
+std::optional<glm::dvec2> DirectionMap::placeOf(const shared::vec3& direction) const {
+    if (projection == Projection::Sphere)
+        return glm::dvec2(
+            (std::atan2(static_cast<double>(direction.z), static_cast<double>(direction.x)) + std::numbers::pi) /
+                (2 * std::numbers::pi),
+            (1 - static_cast<double>(direction.y)) / 2);
+    const shared::vec3 local = toLocal(frame, direction);
+    if (!(local.z > 0.0f)) return std::nullopt;
+    const double share = 1 / std::sqrt(1.0 + local.z);
+    return glm::dvec2((local.x * share + 1) / 2, (1 - local.y * share) / 2);
+}
+
+std::optional<shared::vec3> DirectionMap::directionOf(const glm::dvec2& place) const {
+    if (projection == Projection::Sphere) {
+        const double y = 1 - 2 * place.y, angle = 2 * std::numbers::pi * place.x;
+        const double radius = std::sqrt(std::max(0.0, 1 - y * y));
+        return shared::vec3(static_cast<float>(-radius * std::cos(angle)), static_cast<float>(y),
+                            static_cast<float>(-radius * std::sin(angle)));
+    }
+    const double x = 2 * place.x - 1, y = 1 - 2 * place.y, squared = x * x + y * y; // 1 - cosine
+    if (!(squared < 1)) return std::nullopt;
+    const double share = std::sqrt(2 - squared);
+    return toWorld(frame, shared::vec3(static_cast<float>(x * share), static_cast<float>(y * share),
+                                       static_cast<float>(1 - squared)));
+}
+
+std::size_t DirectionMap::cellAt(const glm::dvec2& place) const {
+    const auto cell = [](double share, std::uint32_t n) {
+        return std::min(static_cast<std::uint32_t>(std::max(share, 0.0) * n), n - 1);
+    };
+    return std::size_t{cell(place.y, height)} * width() + cell(place.x, width());
+}
+
+MapBuilder::MapBuilder(const Probe& probe, const Strategy& strategy, const MapSettings& settings, std::uint32_t seed)
+    : probe_(&probe),
+      strategy_(strategy),
+      settings_(settings),
+      numbers_{app::SamplerKind::Sobol, 1, seed},
+      map_{settings.projection, settings.height, makeFrame(probe.vertex().shading), {}},
+      sums_(std::size_t{map_.width()} * map_.height),
+      passes_(isTraced(settings.quantity) ? settings.paths : settings.side * settings.side) {
+    if (settings.quantity != Quantity::Density) return;
+    least_.assign(sums_.size(), std::numeric_limits<float>::max());
+    most_.assign(sums_.size(), 0.0f);
+}
+
+// At the i-th of side * side places of a cell.
+double MapBuilder::placeValue(std::uint32_t column, std::uint32_t row, std::uint32_t i, std::uint32_t side) const {
+    const glm::dvec2 inCell((i % side + 0.5) / side, (i / side + 0.5) / side); // NOLINT(bugprone-integer-division)
+    return valueIn(column, row, inCell, {});
+}
+
+double MapBuilder::pathValue(std::uint32_t column, std::uint32_t row) const {
+    const Sampler sampler = samplerOf(numbers_, 1u + row * map_.width() + column, pass_);
+    return valueIn(column, row, glm::dvec2(sample2D(sampler, kDimensionPixel)), sampler);
+}
+
+double MapBuilder::valueIn(std::uint32_t column, std::uint32_t row, const glm::dvec2& inCell,
+                           const Sampler& sampler) const {
+    const auto direction = map_.directionOf({(column + inCell.x) / map_.width(), (row + inCell.y) / map_.height});
+    return direction ? probe_->value(settings_.quantity, strategy_, *direction, sampler) : 0;
+}
+
+void MapBuilder::advance() {
+    if (isDone()) return;
+    if (pass_ == passes_) {
+        const std::size_t end = std::min(refined_ + kRefinedAtOnce, unequal_.size());
+        for (; refined_ < end; ++refined_) refine(unequal_[refined_]);
+        return;
+    }
+    for (std::uint32_t column = 0; column < map_.width(); ++column) {
+        const std::size_t cell = std::size_t{row_} * map_.width() + column;
+        const double value =
+            isTraced(settings_.quantity) ? pathValue(column, row_) : placeValue(column, row_, pass_, settings_.side);
+        sums_[cell] += value;
+        if (least_.empty()) continue;
+        least_[cell] = std::min(least_[cell], static_cast<float>(value));
+        most_[cell] = std::max(most_[cell], static_cast<float>(value));
+    }
+    if (++row_ < map_.height) return;
+    row_ = 0;
+    if (++pass_ == passes_ && !least_.empty()) findUnequal();
+}
+
+void MapBuilder::findUnequal() {
+    const auto width = static_cast<std::int64_t>(map_.width()), height = static_cast<std::int64_t>(map_.height);
+    std::vector<char> isUnequal(sums_.size());
+    for (std::int64_t row = 0; row < height; ++row)
+        for (std::int64_t column = 0; column < width; ++column) {
+            const auto cell = static_cast<std::size_t>(row * width + column);
+            if (!(most_[cell] - least_[cell] > kUnequal * most_[cell])) continue;
+            for (std::int64_t y = std::max<std::int64_t>(row - 1, 0); y <= std::min(row + 1, height - 1); ++y)
+                for (std::int64_t x = column - 1; x <= column + 1; ++x)
+                    isUnequal[static_cast<std::size_t>(y * width + (x + width) % width)] = 1;
+        }
+    for (std::size_t cell = 0; cell < isUnequal.size(); ++cell)
+        if (isUnequal[cell] != 0) unequal_.push_back(cell);
+}
+
+void MapBuilder::refine(std::size_t cell) {
+    const std::uint32_t side = kFiner * settings_.side, count = side * side;
+    const auto column = static_cast<std::uint32_t>(cell % map_.width());
+    const auto row = static_cast<std::uint32_t>(cell / map_.width());
+    double sum = 0;
+    for (std::uint32_t i = 0; i < count; ++i) sum += placeValue(column, row, i, side);
+    sums_[cell] = sum / count * passes_;
+}
+
+DirectionMap MapBuilder::map() const {
+    DirectionMap map = map_;
+    map.values.resize(sums_.size());
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+        const std::uint32_t count = pass_ + (i / map.width() < row_ ? 1 : 0);
+        map.values[i] = count > 0 ? static_cast<float>(sums_[i] / count) : 0.0f;
+    }
+    return map;
+}
+
+DirectionMap mapOf(const Probe& probe, const Strategy& strategy, const MapSettings& settings, std::uint32_t seed) {
+    MapBuilder builder(probe, strategy, settings, seed);
+    while (!builder.isDone()) builder.advance();
+    return builder.map();
+}
+
+} // namespace rt::probe

@@ -1,0 +1,76 @@
+// Means of a quantity over cells of directions, each of one solid angle.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "Common/Probe/Probe.h"
+#include "Common/Shared/Base/Sampling.h"
+
+namespace rt::probe {
+
+struct DirectionMap {
+    Projection projection = Projection::Sphere;
+    std::uint32_t height = 0;
+    shared::Frame frame{}; // of Hemisphere: the normal is seen in the middle
+    std::vector<float> values;
+
+    std::uint32_t width() const { return projection == Projection::Sphere ? 2 * height : height; }
+    // Over all directions, or those above the surface: of a density 1, less what the strategy drops.
+    double integral() const;
+    float maximum() const;
+    // Where a direction is, in shares of the map from its upper left; nothing below the surface where that is not seen.
+    std::optional<glm::dvec2> placeOf(const shared::vec3& direction) const;
+    // The reverse; nothing outside of the hemisphere's disk.
+    std::optional<shared::vec3> directionOf(const glm::dvec2& place) const;
+    std::size_t cellAt(const glm::dvec2& place) const;
+    // Of Sphere, where each direction has one.
+    std::size_t cellOf(const shared::vec3& direction) const { return cellAt(*placeOf(direction)); }
+};
+
+// What a map is of.
+struct MapSettings {
+    Quantity quantity = Quantity::Density;
+    Projection projection = Projection::Sphere;
+    std::uint32_t height = 128;
+    std::uint32_t side = 4;   // places of a cell, squared; of a density more where those differ, as at edges of lights
+    std::uint32_t paths = 16; // of a cell instead, where rays are traced
+};
+
+// Makes a map row by row, in passes over all of it: there is one of fewer places at any time. Then cells of a density
+// whose places differ, and their neighbours, get more of them, so that samples can be tested by it.
+class MapBuilder {
+  public:
+    // The probe must outlive it.
+    MapBuilder(const Probe& probe, const Strategy& strategy, const MapSettings& settings, std::uint32_t seed);
+
+    bool isDone() const { return pass_ == passes_ && refined_ == unequal_.size(); }
+    bool hasPass() const { return pass_ > 0; } // over all of it
+    void advance();                            // by a row of a pass
+    DirectionMap map() const;
+
+  private:
+    double placeValue(std::uint32_t column, std::uint32_t row, std::uint32_t i, std::uint32_t side) const;
+    double pathValue(std::uint32_t column, std::uint32_t row) const;
+    double valueIn(std::uint32_t column, std::uint32_t row, const glm::dvec2& inCell,
+                   const shared::Sampler& sampler) const;
+    void findUnequal();
+    void refine(std::size_t cell);
+
+    const Probe* probe_;
+    Strategy strategy_;
+    MapSettings settings_;
+    NumberSettings numbers_;
+    DirectionMap map_; // without values
+    std::vector<double> sums_;
+    std::uint32_t passes_, pass_ = 0, row_ = 0;
+    std::vector<float> least_, most_;  // of each cell's places, of a density
+    std::vector<std::size_t> unequal_; // cells with more places
+    std::size_t refined_ = 0;          // of those
+};
+
+// At once.
+DirectionMap mapOf(const Probe& probe, const Strategy& strategy, const MapSettings& settings, std::uint32_t seed);
+
+} // namespace rt::probe

@@ -1,0 +1,68 @@
+#include "Common/Probe/ProbeReport.h"
+
+#include <algorithm>
+
+#include "Common/Image/ImageIo.h"
+#include "Common/Probe/ProbePicture.h"
+
+namespace rt::probe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json numbers(const shared::vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+Json testJson(const std::optional<ChiSquare>& test) {
+    if (!test) return nullptr;
+    return {{"statistic", test->statistic}, {"degrees", test->degrees}, {"p", test->p}};
+}
+
+Json growthJson(const std::vector<TestOf>& tests) {
+    Json growth = Json::array();
+    for (const TestOf& test : tests)
+        if (test.test) growth.push_back({test.samples, test.test->p});
+    return growth;
+}
+
+Json estimatesJson(const std::vector<EstimateOf>& estimates) {
+    Json all = Json::object();
+    for (const EstimateOf& e : estimates) all[e.name] = {{"mean", e.mean}, {"variance", e.variance}};
+    return all;
+}
+
+Json selectionJson(const std::vector<LightShare>& selection) {
+    Json lights = Json::array();
+    for (const LightShare& share : selection) lights.push_back({share.light, share.probability});
+    return lights;
+}
+
+} // namespace
+
+Json figuresOf(const ProbeResult& result, const std::string& scene, const std::array<std::uint32_t, 2>& pixel) {
+    const ProbeSettings& settings = result.settings;
+    return {{"version", 1},
+            {"scene", scene},
+            {"pixel", {pixel[0], pixel[1]}},
+            {"strategy", nameOf(settings.strategy)},
+            {"show", app::nameOf(kQuantities, settings.quantity)},
+            {"sampler", app::nameOf(kProbeSamplers, settings.numbers.kind)},
+            {"position", numbers(result.position)},
+            {"normal", numbers(result.normal)},
+            {"material", result.material},
+            {"lights", result.lights},
+            {"selection", selectionJson(result.selection)},
+            {"integral", result.density.integral()},
+            {"samples", result.samples},
+            {"dropped", result.dropped},
+            {"chi_square", testJson(result.tests.empty() ? std::nullopt : result.tests.back().test)},
+            {"chi_square_growth", growthJson(result.tests)},
+            {"estimates", estimatesJson(result.estimates)}};
+}
+
+void writePicture(const std::string& file, const ProbeResult& result) {
+    image::writeImage(file, image::isDisplayReferred(file) ? pictureOf(result) : imageOf(result.maps.front()));
+}
+
+} // namespace rt::probe

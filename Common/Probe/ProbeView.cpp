@@ -1,0 +1,170 @@
+#include "Common/Probe/ProbeView.h"
+
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <utility>
+
+#include "Common/Core/AtomicFile.h"
+#include "Common/Core/Error.h"
+#include "Common/Probe/ProbeReport.h"
+#include "Common/Render/Stopwatch.h"
+#include "Common/Scene/CameraRecord.h"
+
+namespace rt::probe {
+namespace {
+
+constexpr double kPublishSeconds = 0.06; // between two results of one wish
+
+app::Options optionsOf(const ProbeWish& wish) {
+    app::Options options;
+    options.settings = wish.rendering;
+    options.size = {wish.rendering.width, wish.rendering.height, {}};
+    return options;
+}
+
+std::optional<Probe> placeOf(const ProbeWish& wish, const SceneFormulas& formulas) {
+    const shared::Camera camera =
+        scene::makeCamera(wish.camera, wish.rendering.width, wish.rendering.height, wish.scene->origin);
+    return Probe::at(formulas, camera, wish.pixel[0], wish.pixel[1]);
+}
+
+std::string whyNothingAt(const std::optional<Probe>& probe, const Strategy& strategy) {
+    if (!probe) return "The pixel shows no surface";
+    const bool isOfOther =
+        strategy.kind == StrategyKind::Light && strategy.light >= probe->scene().compiled()->globals.lightCount;
+    return isOfOther ? "The scene has no light " + std::to_string(strategy.light) : probe->whyNoDensity(strategy);
+}
+
+ProbeSaved saveWish(const std::string& file, ProbeWish wish, const std::atomic<bool>& isGivenUp) {
+    wish.settings.projections = {Projection::Sphere, Projection::Hemisphere};
+    try {
+        const SceneFormulas formulas(wish.scene, optionsOf(wish), 0.0);
+        if (!formulas.prepare(isGivenUp)) return {file, ""};
+        const std::optional<Probe> probe = placeOf(wish, formulas);
+        if (std::string why = whyNothingAt(probe, wish.settings.strategy); !why.empty()) return {file, std::move(why)};
+        ProbeRun work(*probe, wish.settings);
+        while (!work.isDone()) {
+            if (isGivenUp) return {file, ""};
+            work.advance();
+        }
+        const ProbeResult result = work.result();
+        writePicture(file, result);
+        const std::string figures = figuresOf(result, wish.scene->id, wish.pixel).dump(2) + "\n";
+        AtomicFile beside(std::filesystem::path(file).replace_extension(".json"));
+        beside.stream() << figures;
+        beside.commit();
+        return {file, ""};
+    } catch (const std::exception& error) {
+        return {file, messageOf(error)};
+    }
+}
+
+} // namespace
+
+ProbeView::ProbeView(std::function<void()> onChange) : onChange_(std::move(onChange)), thread_([this] { run(); }) {}
+
+ProbeView::~ProbeView() {
+    {
+        const std::scoped_lock lock(mutex_);
+        isEnding_ = true;
+        isStale_ = isSceneStale_ = isGivenUp_ = true;
+    }
+    wake_.notify_all();
+    thread_.join();
+    if (saving_.valid()) saving_.wait();
+}
+
+void ProbeView::wish(std::optional<ProbeWish> wish) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (wish == wish_) return;
+        isSceneStale_ = isSceneStale_ || !wish || !wish_ || wish->scene != wish_->scene;
+        isStale_ = isNew_ = true;
+        wish_ = std::move(wish);
+        if (!wish_) state_.reset();
+    }
+    wake_.notify_all();
+}
+
+void ProbeView::save(const std::string& file, const ProbeWish& wish) {
+    if (isSaving()) return;
+    saving_ = std::async(std::launch::async, [this, file, wish] {
+        ProbeSaved saved = saveWish(file, wish, isGivenUp_);
+        onChange_();
+        return saved;
+    });
+}
+
+std::optional<ProbeSaved> ProbeView::takeSaved() {
+    if (!saving_.valid() || saving_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
+    return saving_.get();
+}
+
+std::shared_ptr<const ProbeState> ProbeView::state() const {
+    const std::scoped_lock lock(mutex_);
+    return state_;
+}
+
+void ProbeView::run() {
+    for (;;) {
+        std::optional<ProbeWish> wish;
+        {
+            std::unique_lock lock(mutex_);
+            wake_.wait(lock, [this] { return isNew_ || isEnding_; });
+            if (isEnding_) return;
+            wish = wish_;
+            isNew_ = false;
+            isStale_ = isSceneStale_ = false;
+        }
+        if (!wish) {
+            formulas_.reset(); // with its acceleration structure
+            continue;
+        }
+        try {
+            answer(*wish);
+        } catch (const std::exception& error) {
+            formulas_.reset();
+            publish(*wish, messageOf(error), {});
+        }
+    }
+}
+
+// What has been built for the scene stays.
+void ProbeView::provide(const ProbeWish& wish) {
+    if (!formulas_ || formulas_->compiled() != wish.scene)
+        formulas_ = std::make_shared<SceneFormulas>(wish.scene, optionsOf(wish), 0.0);
+    else if (formulas_->options().settings != wish.rendering)
+        formulas_ = formulas_->with(optionsOf(wish));
+}
+
+void ProbeView::answer(const ProbeWish& wish) {
+    provide(wish);
+    if (!formulas_->prepare(isSceneStale_)) return;
+    const std::optional<Probe> probe = placeOf(wish, *formulas_);
+    if (std::string why = whyNothingAt(probe, wish.settings.strategy); !why.empty())
+        return publish(wish, std::move(why), {});
+    ProbeRun work(*probe, wish.settings);
+    app::Stopwatch sincePublished;
+    for (bool isFirst = true; !work.isDone();) {
+        if (isStale_ && work.hasFirst() && !isFirst) return;
+        work.advance();
+        const bool isDue = isFirst ? work.hasFirst() : sincePublished.seconds() > kPublishSeconds;
+        if (!isDue && !work.isDone()) continue;
+        isFirst = false;
+        publish(wish, "", work.result());
+        sincePublished = {};
+    }
+}
+
+void ProbeView::publish(const ProbeWish& wish, std::string whyNot, ProbeResult result) {
+    auto state = std::make_shared<ProbeState>(ProbeState{wish, std::move(whyNot), std::move(result), ++serial_});
+    {
+        const std::scoped_lock lock(mutex_);
+        if (!wish_) return; // nobody looks any more
+        state_ = std::move(state);
+    }
+    onChange_();
+}
+
+} // namespace rt::probe
