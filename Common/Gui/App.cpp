@@ -66,7 +66,9 @@ class App {
                program.devices,
                other_,
                options.assetsBelow,
-               editor_} {
+               editor_,
+               probe_,
+               probeImage_} {
         gui_.showFirstSteps = !std::exchange(settings_.sawFirstSteps, true);
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
     }
@@ -96,12 +98,14 @@ class App {
     ImGuiLayer imgui_;
     Thumbnails thumbnails_{device_, presenter_.renderPass(), "thumbnails", kScenePictureSide};
     Thumbnails materialPictures_{device_, presenter_.renderPass(), "materials/thumbnails", kMaterialPictureSide};
+    PanelImage probeImage_{device_, presenter_.renderPass()};
     app::RunHistory history_;
     app::CameraController camera_;
     std::atomic<bool> isNews_{false}; // there is something new of the session
     app::InteractiveSession session_;
     app::SceneEditor editor_{session_, options_.assetsBelow};
     app::OtherEngine other_{history_, [this] { isNews_ = true; }};
+    probe::ProbeView probe_{[this] { isNews_ = true; }};
     Gui gui_;
     PictureArea picture_{gui_};
     SessionLink link_{options_, gui_, presenter_};
@@ -217,12 +221,14 @@ void App::turn() {
     const auto drawInterface = [this](VkCommandBuffer commands) {
         thumbnails_.setCommands(commands);
         materialPictures_.setCommands(commands);
+        probeImage_.setCommands(commands);
         imgui_.draw(commands);
     };
     if (gui_.partToSave) savePart(drawInterface);
-    const auto upload = [this](VkCommandBuffer commands) {
-        thumbnails_.upload(commands);
-        materialPictures_.upload(commands);
+    const auto upload = [this](VkCommandBuffer commands, std::uint32_t frame) {
+        thumbnails_.upload(commands, frame);
+        materialPictures_.upload(commands, frame);
+        probeImage_.upload(commands, frame);
     };
     presenting_.present({{width, height}, picture_.constants(), upload, drawInterface});
     meter_.add(busy.seconds());
@@ -272,10 +278,12 @@ void App::drawFrame(bool isShown) {
     imgui_.beginFrame(input_);
     thumbnails_.beginFrame();
     materialPictures_.beginFrame();
+    probeImage_.beginFrame();
     for (const InputEvent& event : input_)
         if (isKeyPress(event)) obeyKey(gui_, event);
     followEditing(gui_);
     followMaterials(gui_);
+    followSampler(gui_);
     drawInterface();
     flying_ = fly(gui_, input_, seconds);
     gui_.isHeld = flying_ || ImGui::IsAnyMouseDown() || gui_.editing.tool;
@@ -319,6 +327,7 @@ void App::drawInterface() {
     picture_.handlePointer();
     drawSelection(gui_, picture_.imageRect(), area);
     drawTools(gui_, picture_.imageRect(), area);
+    drawSampledPoint(gui_, picture_.imageRect(), area);
     drawViewLegend(gui_, area, scale);
     drawChips(gui_, area, picture_.imageRect(), scale);
     drawOverlay(gui_, area, scale);

@@ -19,11 +19,14 @@
 #include "Common/Gui/Inspector.h"
 #include "Common/Gui/Layout.h"
 #include "Common/Gui/MaterialTools.h"
+#include "Common/Gui/PanelImage.h"
 #include "Common/Gui/PinnedView.h"
 #include "Common/Gui/RunBoard.h"
+#include "Common/Gui/SamplerView.h"
 #include "Common/Gui/SceneEditing.h"
 #include "Common/Gui/Thumbnails.h"
 #include "Common/Gui/Window.h"
+#include "Common/Probe/ProbeView.h"
 
 namespace rt::gui {
 
@@ -63,10 +66,13 @@ struct Gui {
     app::OtherEngine& other;
     const std::string assetsBelow; // as --assets-below says
     app::SceneEditor& editor;
+    probe::ProbeView& probe;
+    PanelImage& probeImage;
 
     app::SessionState state; // of this frame
     SceneEditing editing;
     MaterialTools materials;
+    SamplerView sampling;
     Rect shownImage; // the whole picture's, in the window's units
     PictureView view;
     app::ViewRequest viewRequest;

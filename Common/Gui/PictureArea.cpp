@@ -188,6 +188,10 @@ void PictureArea::handlePointer() {
     inspect(pixel);
     takeMaterial();
     const bool isPicking = gui_.materials.isPicking; // the click is for the pipette
+    if (!gui_.editing.tool && !isPicking && holdSampledPoint(gui_, inside, pixel)) {
+        dragging_ = false; // what moves the point does not orbit
+        return;
+    }
     if (gui_.editing.tool || (!isPicking && gripGizmo(gui_, imageRect(), inside))) return handleTool(pixel);
     select(inside, pixel);
     if (inside && io.MouseClicked[0] && (gui_.pickFocus || (io.KeyCtrl && io.KeyShift))) {

@@ -231,7 +231,7 @@ void Presenter::record(FrameSlot& slot, const SwapImage& target, const WindowFra
     if (newHeld_) film_->upload(slot.commands, slot_, FilmPass::Slot::Held, *newHeld_);
     newPicture_ = nullptr;
     newHeld_ = nullptr;
-    frame.upload(slot.commands);
+    frame.upload(slot.commands, slot_);
 
     VkRenderPassBeginInfo pass{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
     pass.renderPass = renderPass_.get();

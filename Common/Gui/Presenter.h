@@ -18,7 +18,8 @@ namespace rt::gui {
 struct WindowFrame {
     std::array<int, 2> size{}; // of the window, in pixels
     PresentConstants constants;
-    std::function<void(VkCommandBuffer)> upload;        // outside of the render pass: what the interface needs
+    // Outside of the render pass, with the number of the frame in flight: what the interface needs.
+    std::function<void(VkCommandBuffer, std::uint32_t)> upload;
     std::function<void(VkCommandBuffer)> drawInterface; // over the picture
 };
 

@@ -1,5 +1,7 @@
 // What is saved to which files.
 #pragma once
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,6 +18,10 @@ std::filesystem::path saveFolder(const std::string& folder);
 
 // For pictures without a name: a PNG and an EXR in saveFolder(folder); no such file exists yet.
 std::vector<std::string> savePaths(const std::string& folder, const app::SessionState& state, app::SavedPicture what);
+
+// For a picture of the panel Sampler: a PNG likewise, beside which is no JSON.
+std::string probePath(const std::string& folder, const app::SessionState& state,
+                      const std::array<std::uint32_t, 2>& pixel);
 
 // What the program was asked for when it was started.
 app::SaveRequest filesOf(const app::Options& options, float exposure, app::Tonemap tonemap);
