@@ -202,8 +202,8 @@ void Desktop::endScreen() {
     screen_ = -1;
 }
 
-bool Desktop::drop(const std::vector<std::string>& files) {
-    return dropFiles(display_, std::stoul(window_), files);
+bool Desktop::drop(const std::vector<std::string>& files, int x, int y) {
+    return dropFiles(display_, std::stoul(window_), files, x, y);
 }
 
 std::uint64_t Desktop::residentBytes() const {

@@ -44,8 +44,8 @@ class Desktop : public testing::Test {
     void setDotsPerInch(int dots); // of the screen, before start()
     void destroyWindow();          // as no program should do to another
     void endScreen();              // as at the end of a user's session
-    // Drops files on the window as another program would; whether they were taken.
-    bool drop(const std::vector<std::string>& files);
+    // Drops files on the window, at a place in it, as another program would; whether they were taken.
+    bool drop(const std::vector<std::string>& files, int x = 1, int y = 1);
     std::uint64_t residentBytes() const;
     bool isBusy() const; // whether any of its threads runs, or would on a machine with less to do
     Screenshot screenshot() const { return takeScreenshot(display_); }

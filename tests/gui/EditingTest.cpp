@@ -98,6 +98,32 @@ TEST_P(EditingTest, ABallBecomesMetalALightIsAddedAndBothAreSaved) {
     expectCleanEnd();
 }
 
+#ifdef RT_HAS_PUGIXML
+// Nothing is selected: it is for what is under the pointer.
+TEST_P(EditingTest, TheBallGetsTheMaterialOfAFileThatIsDroppedOnIt) {
+    std::ofstream(folder_ / "cherry.mtlx") << R"(<materialx version="1.38"><gltf_pbr name="S" type="surfaceshader">
+        <input name="base_color" type="color3" value="0.5, 0, 0"/><input name="metallic" type="float" value="0"/></gltf_pbr>
+        <surfacematerial name="Cherry" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/>
+        </surfacematerial></materialx>)";
+    startWithBall();
+    ASSERT_FALSE(HasFatalFailure());
+    const auto isDropped = [this] {
+        if (isMarkedUnsaved()) return true;
+        EXPECT_TRUE(drop({(folder_ / "cherry.mtlx").string()}, kBallX, kBallY));
+        pause(3000);
+        return isMarkedUnsaved();
+    };
+    ASSERT_TRUE(eventually(isDropped, kSeen)) << log();
+    key("ctrl+q");
+    ASSERT_TRUE(appears("Save them")) << log();
+    const auto isSaved = [this] { return saved().is_object() && saved()["materials"].contains("Cherry"); };
+    ASSERT_TRUE(clickText("Save them", isSaved)) << log();
+    EXPECT_EQ(waitForEnd(), 0) << log();
+    EXPECT_EQ(saved()["objects"][0]["material"], "Cherry");
+    EXPECT_EQ(saved()["materials"]["Cherry"]["base_color"][0], 0.5);
+}
+#endif
+
 // By a click for what is selected, and by a drag onto the ball for the ball.
 TEST_P(EditingTest, TheBallGetsMaterialsOfTheLibrary) {
     startWithBall();

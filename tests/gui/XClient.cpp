@@ -49,12 +49,12 @@ class Source {
     Source(const Source&) = delete;
     Source& operator=(const Source&) = delete;
 
-    bool drop() {
+    bool drop(int inX, int inY) {
         XSetSelectionOwner(display_, atom("XdndSelection"), window_, CurrentTime);
         send("XdndEnter", kXdndVersion << 24, static_cast<long>(type_));
         int x = 0, y = 0;
         Window child = 0;
-        XTranslateCoordinates(display_, target_, DefaultRootWindow(display_), 1, 1, &x, &y, &child);
+        XTranslateCoordinates(display_, target_, DefaultRootWindow(display_), inX, inY, &x, &y, &child);
         send("XdndPosition", 0, static_cast<long>(x) << 16 | y, CurrentTime, static_cast<long>(atom("XdndActionCopy")));
         if ((answer("XdndStatus") & 1) == 0) return false;
         send("XdndDrop", 0, CurrentTime);
@@ -116,9 +116,9 @@ class Source {
 
 } // namespace
 
-bool dropFiles(const std::string& display, unsigned long window, const std::vector<std::string>& files) {
+bool dropFiles(const std::string& display, unsigned long window, const std::vector<std::string>& files, int x, int y) {
     const Connection connection(XOpenDisplay(display.c_str()));
-    return connection && Source(connection.get(), window, uriList(files)).drop();
+    return connection && Source(connection.get(), window, uriList(files)).drop(x, y);
 }
 
 void setMinimised(const std::string& display, unsigned long window, bool minimised) {

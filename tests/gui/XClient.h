@@ -8,7 +8,7 @@
 namespace rt::test {
 
 // Drops files on a window by the protocol XDND, version 5; whether the window took them.
-bool dropFiles(const std::string& display, unsigned long window, const std::vector<std::string>& files);
+bool dropFiles(const std::string& display, unsigned long window, const std::vector<std::string>& files, int x, int y);
 
 // As the only window manager of the display.
 void setMinimised(const std::string& display, unsigned long window, bool minimised);
