@@ -55,6 +55,47 @@ void drawLids(Pen& pen) {
     pen.arc({0.5f, 0.22f}, 0.53f, 0.089f, 0.411f);
 }
 
+// At the left, none at the right.
+void drawGrains(Pen& pen) {
+    pen.line({{0.06f, 0.06f}, {0.94f, 0.06f}, {0.94f, 0.94f}, {0.06f, 0.94f}}, true);
+    pen.line({{0.5f, 0.06f}, {0.5f, 0.94f}});
+    for (const ImVec2 grain :
+         {ImVec2{0.2f, 0.22f}, ImVec2{0.36f, 0.38f}, ImVec2{0.2f, 0.54f}, ImVec2{0.36f, 0.7f}, ImVec2{0.2f, 0.82f}})
+        pen.disk(grain, 0.06f);
+}
+
+void drawFlag(Pen& pen) {
+    pen.line({{0.14f, 0.04f}, {0.14f, 0.96f}});
+    pen.frame({0.14f, 0.1f}, {0.94f, 0.62f});
+    pen.box({0.14f, 0.1f}, {0.41f, 0.36f});
+    pen.box({0.67f, 0.1f}, {0.94f, 0.36f});
+    pen.box({0.41f, 0.36f}, {0.67f, 0.62f});
+}
+
+void drawOpenedFolder(Pen& pen) {
+    drawFolder(pen);
+    pen.line({{0.5f, 0.74f}, {0.5f, 0.44f}});
+    pen.line({{0.38f, 0.55f}, {0.5f, 0.43f}, {0.62f, 0.55f}});
+}
+
+void drawTray(Pen& pen) {
+    pen.line({{0.5f, 0.04f}, {0.5f, 0.62f}});
+    pen.line({{0.28f, 0.4f}, {0.5f, 0.64f}, {0.72f, 0.4f}});
+    pen.line({{0.08f, 0.62f}, {0.08f, 0.92f}, {0.92f, 0.92f}, {0.92f, 0.62f}});
+}
+
+void drawQuestionMark(Pen& pen) {
+    pen.arc({0.5f, 0.31f}, 0.24f, 0.5f, 1.12f);
+    pen.line({{0.67f, 0.47f}, {0.5f, 0.58f}, {0.5f, 0.7f}});
+    pen.disk({0.5f, 0.88f}, 0.075f);
+}
+
+void drawWarning(Pen& pen) {
+    pen.line({{0.5f, 0.08f}, {0.97f, 0.9f}, {0.03f, 0.9f}}, true);
+    pen.line({{0.5f, 0.36f}, {0.5f, 0.62f}});
+    pen.disk({0.5f, 0.75f}, 0.06f);
+}
+
 } // namespace
 
 void drawIcon(ImDrawList& list, Icon icon, ImVec2 corner, float side, ImU32 color) {
@@ -83,21 +124,13 @@ void drawIcon(ImDrawList& list, Icon icon, ImVec2 corner, float side, ImU32 colo
             pen.fill({{0.62f, 0.34f}, {0.98f, 0.36f}, {0.9f, 0.02f}});
             break;
         case Icon::Open:
-            drawFolder(pen);
-            pen.line({{0.5f, 0.74f}, {0.5f, 0.44f}});
-            pen.line({{0.38f, 0.55f}, {0.5f, 0.43f}, {0.62f, 0.55f}});
+            drawOpenedFolder(pen);
             break;
         case Icon::Save:
-            pen.line({{0.5f, 0.04f}, {0.5f, 0.62f}});
-            pen.line({{0.28f, 0.4f}, {0.5f, 0.64f}, {0.72f, 0.4f}});
-            pen.line({{0.08f, 0.62f}, {0.08f, 0.92f}, {0.92f, 0.92f}, {0.92f, 0.62f}});
+            drawTray(pen);
             break;
-        case Icon::Denoise: // grains at the left, none at the right
-            pen.line({{0.06f, 0.06f}, {0.94f, 0.06f}, {0.94f, 0.94f}, {0.06f, 0.94f}}, true);
-            pen.line({{0.5f, 0.06f}, {0.5f, 0.94f}});
-            for (const ImVec2 grain : {ImVec2{0.2f, 0.22f}, ImVec2{0.36f, 0.38f}, ImVec2{0.2f, 0.54f},
-                                       ImVec2{0.36f, 0.7f}, ImVec2{0.2f, 0.82f}})
-                pen.disk(grain, 0.06f);
+        case Icon::Denoise:
+            drawGrains(pen);
             break;
         case Icon::Split:
             pen.frame({0.06f, 0.14f}, {0.94f, 0.86f});
@@ -108,11 +141,7 @@ void drawIcon(ImDrawList& list, Icon icon, ImVec2 corner, float side, ImU32 colo
             pen.line({{0.22f, 0.2f}, {0.42f, 0.52f}, {0.62f, 0.66f}, {0.92f, 0.74f}});
             break;
         case Icon::Flag:
-            pen.line({{0.14f, 0.04f}, {0.14f, 0.96f}});
-            pen.frame({0.14f, 0.1f}, {0.94f, 0.62f});
-            pen.box({0.14f, 0.1f}, {0.41f, 0.36f});
-            pen.box({0.67f, 0.1f}, {0.94f, 0.36f});
-            pen.box({0.41f, 0.36f}, {0.67f, 0.62f});
+            drawFlag(pen);
             break;
         case Icon::Figures:
             pen.box({0.08f, 0.55f}, {0.26f, 0.94f});
@@ -124,14 +153,10 @@ void drawIcon(ImDrawList& list, Icon icon, ImVec2 corner, float side, ImU32 colo
             pen.box({0.05f, 0.12f}, {0.38f, 0.88f});
             break;
         case Icon::Help:
-            pen.arc({0.5f, 0.31f}, 0.24f, 0.5f, 1.12f);
-            pen.line({{0.67f, 0.47f}, {0.5f, 0.58f}, {0.5f, 0.7f}});
-            pen.disk({0.5f, 0.88f}, 0.075f);
+            drawQuestionMark(pen);
             break;
         case Icon::Warning:
-            pen.line({{0.5f, 0.08f}, {0.97f, 0.9f}, {0.03f, 0.9f}}, true);
-            pen.line({{0.5f, 0.36f}, {0.5f, 0.62f}});
-            pen.disk({0.5f, 0.75f}, 0.06f);
+            drawWarning(pen);
             break;
         case Icon::Close:
             pen.line({{0.14f, 0.14f}, {0.86f, 0.86f}});
