@@ -166,6 +166,40 @@ TEST_F(MaterialX, GraphsOfImagesBecomeTextures) {
     EXPECT_EQ(image(material.principled.normalTexture).file, wood());
 }
 
+// As version 1.38 has them, in which numbers are packed into one image.
+TEST_F(MaterialX, InputsTakeChannelsOfWhatComes) {
+    const std::string image =
+        "<image name=\"packed\" type=\"vector3\">" + input("file", "filename", "wood.png") + "</image>";
+    const auto channel = [](const std::string& name, const std::string& channels) {
+        return "<input name=\"" + name + "\" type=\"float\" nodename=\"packed\" channels=\"" + channels + "\"/>";
+    };
+    const MaterialDesc packed =
+        material(surface("gltf_pbr", channel("metallic", "z") + channel("roughness", "g"), image));
+    EXPECT_EQ(packed.principled.metallic.channel, Channel::Blue);
+    EXPECT_EQ(packed.principled.roughness.channel, Channel::Green);
+    EXPECT_EQ(packed.principled.metallic.texture, packed.principled.roughness.texture);
+    EXPECT_NE(noticeOf(surface("gltf_pbr", channel("metallic", "zyx"), image)).find("\"zyx\""), std::string::npos);
+}
+
+// Of films the thickness in nm, of dispersion 20 over the Abbe number.
+TEST_F(MaterialX, FilmsAndDispersionAreOfOneUnit) {
+    const std::string open = input("thin_film_weight", "float", "0.5") + input("thin_film_thickness", "float", "0.4") +
+                             input("transmission_weight", "float", "1") +
+                             input("transmission_dispersion_scale", "float", "0.5") +
+                             input("transmission_dispersion_abbe_number", "float", "40");
+    const PrincipledDesc a = material(surface("open_pbr_surface", open)).principled;
+    EXPECT_EQ(a.iridescence.factor, 0.5);
+    EXPECT_EQ(a.iridescenceIor, 1.4);
+    EXPECT_NEAR(a.iridescenceThicknessMaximum, 400, 1e-9);
+    EXPECT_EQ(a.dispersion, 0.25);
+    const std::string standard = input("thin_film_thickness", "float", "550") + input("transmission", "float", "1") +
+                                 input("transmission_dispersion", "float", "40");
+    const PrincipledDesc b = material(surface("standard_surface", standard)).principled;
+    EXPECT_EQ(b.iridescence.factor, 1);
+    EXPECT_EQ(b.iridescenceThicknessMaximum, 550);
+    EXPECT_EQ(b.dispersion, 0.5);
+}
+
 TEST_F(MaterialX, WhatIsLeftOutIsTold) {
     EXPECT_EQ(noticeOf(surface("standard_surface", input("coat_IOR", "float", "1.7"))),
               "f.mtlx: <standard_surface \"S\">: input coat_IOR: left out");
@@ -291,6 +325,12 @@ TEST_F(MaterialX, EveryParameterIsWrittenAndReadAgain) {
     p.normalScale = 0.5;
     p.opacity = {1, "numbers", Channel::Red};
     p.alphaCutoff = 0.25;
+    p.anisotropy = {0.5, "numbers", Channel::Blue};
+    p.anisotropyRotation = 0.75;
+    p.iridescence.factor = 0.5;
+    p.iridescenceIor = 1.5;
+    p.iridescenceThicknessMaximum = 300;
+    p.dispersion = 0.25;
     std::vector<std::string> notices;
     const std::string text = toMaterialX(scene, "Old brick", folder_.path(), notices);
     EXPECT_TRUE(notices.empty()) << notices.front();
@@ -305,8 +345,8 @@ TEST_F(MaterialX, EveryParameterIsWrittenAndReadAgain) {
         name = was;
     };
     expectSame(std::get<std::string>(is.albedo), "color");
-    for (const auto member :
-         {&PrincipledDesc::metallic, &PrincipledDesc::roughness, &PrincipledDesc::clearcoat, &PrincipledDesc::opacity})
+    for (const auto member : {&PrincipledDesc::metallic, &PrincipledDesc::roughness, &PrincipledDesc::clearcoat,
+                              &PrincipledDesc::opacity, &PrincipledDesc::anisotropy})
         expectSame((is.principled.*member).texture, "numbers");
     expectSame(is.principled.normalTexture, "normals");
     expectSame(is.principled.clearcoatNormalTexture, "normals");

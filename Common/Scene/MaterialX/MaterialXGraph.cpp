@@ -97,7 +97,22 @@ std::optional<MaterialXSignal> MaterialXGraph::follow(const Scope& scope, const 
         result = MaterialXSignal{constant(scope, of, input), {}, {}, {}, false, false};
     }
     --depth_;
-    return result;
+    return input.find("channels") != nullptr && result ? swizzled(of, *result, input.attribute("channels")) : result;
+}
+
+// Of version 1.38: an input that takes one channel of what comes.
+std::optional<MaterialXSignal> MaterialXGraph::swizzled(const XmlElement& of, const MaterialXSignal& signal,
+                                                        const std::string& channels) {
+    constexpr std::string_view kColors = "rgba", kAxes = "xyzw";
+    if (kColors.starts_with(channels) && channels.size() > 1) return signal;
+    if (kAxes.starts_with(channels) && channels.size() > 1) return signal;
+    const std::size_t color = channels.size() == 1 ? kColors.find(channels) : kColors.npos;
+    const std::size_t axis = channels.size() == 1 ? kAxes.find(channels) : kAxes.npos;
+    if (color == kColors.npos && axis == kAxes.npos) {
+        leaveOut(of, "left out: its channels \"" + printable(channels, 100) + "\" are none or change places");
+        return std::nullopt;
+    }
+    return channelOf(of, signal, std::min(color, axis));
 }
 
 // What comes out of a node.
@@ -113,13 +128,13 @@ std::optional<MaterialXSignal> MaterialXGraph::node(const Scope& scope, const Xm
     if (of.name == "extract") {
         const glm::dvec4 index = constantOr(scope, of, "index", glm::dvec4(0));
         if (!(index.x >= 0 && index.x <= 3)) fail(of, "input index: must be from 0 to 3");
-        return channelOf(scope, of, static_cast<std::size_t>(index.x));
+        return channelOfInner(scope, of, static_cast<std::size_t>(index.x));
     }
     if (of.name.starts_with("separate")) {
         constexpr std::string_view kOutputs[] = {"outr", "outx", "outg", "outy", "outb", "outz", "outa", "outw"};
         const auto* const found = std::find(std::begin(kOutputs), std::end(kOutputs), output);
         if (found == std::end(kOutputs)) fail(of, "has no output \"" + printable(output, 100) + "\"");
-        return channelOf(scope, of, static_cast<std::size_t>(found - std::begin(kOutputs)) / 2);
+        return channelOfInner(scope, of, static_cast<std::size_t>(found - std::begin(kOutputs)) / 2);
     }
     leaveOut(of, "left out: only constants and images are read, with multiply, invert, extract and normalmap");
     return std::nullopt;
@@ -131,20 +146,21 @@ std::optional<MaterialXSignal> MaterialXGraph::inner(const Scope& scope, const X
     return follow(scope, of, *input);
 }
 
-std::optional<MaterialXSignal> MaterialXGraph::channelOf(const Scope& scope, const XmlElement& of,
-                                                         std::size_t channel) {
-    std::optional<MaterialXSignal> signal = inner(scope, of, "in");
-    if (!signal) return signal;
-    if (!signal->image) {
-        signal->factor = glm::dvec4(signal->factor[static_cast<glm::length_t>(channel)]);
+MaterialXSignal MaterialXGraph::channelOf(const XmlElement& of, MaterialXSignal signal, std::size_t channel) const {
+    const auto index = static_cast<glm::length_t>(channel);
+    if (signal.image && signal.channel) {
+        if (channel > 0) fail(of, "takes a channel of what has only one");
         return signal;
     }
-    if (signal->channel && channel > 0) fail(of, "takes a channel of what has only one");
-    if (!signal->channel) {
-        signal->factor = glm::dvec4(signal->factor[static_cast<glm::length_t>(channel)]);
-        signal->channel = static_cast<Channel>(channel);
-    }
+    signal.factor = glm::dvec4(signal.factor[index]);
+    if (signal.image) signal.channel = static_cast<Channel>(channel);
     return signal;
+}
+
+std::optional<MaterialXSignal> MaterialXGraph::channelOfInner(const Scope& scope, const XmlElement& of,
+                                                              std::size_t channel) {
+    const std::optional<MaterialXSignal> signal = inner(scope, of, "in");
+    return signal ? std::optional(channelOf(of, *signal, channel)) : std::nullopt;
 }
 
 std::optional<MaterialXSignal> MaterialXGraph::product(const Scope& scope, const XmlElement& of) {

@@ -56,7 +56,10 @@ class MaterialXGraph {
     std::optional<MaterialXSignal> node(const Scope& scope, const XmlElement& node, const std::string& output);
     std::optional<MaterialXSignal> inner(const Scope& scope, const XmlElement& node, const char* input);
     std::optional<MaterialXSignal> imageOf(const Scope& scope, const XmlElement& node);
-    std::optional<MaterialXSignal> channelOf(const Scope& scope, const XmlElement& node, std::size_t channel);
+    std::optional<MaterialXSignal> channelOfInner(const Scope& scope, const XmlElement& node, std::size_t channel);
+    MaterialXSignal channelOf(const XmlElement& node, MaterialXSignal signal, std::size_t channel) const;
+    std::optional<MaterialXSignal> swizzled(const XmlElement& node, const MaterialXSignal& signal,
+                                            const std::string& channels);
     std::optional<MaterialXSignal> product(const Scope& scope, const XmlElement& node);
     std::optional<MaterialXSignal> inverse(const Scope& scope, const XmlElement& node);
     std::optional<MaterialXSignal> normalMap(const Scope& scope, const XmlElement& node);

@@ -23,9 +23,13 @@ struct MaterialXModel {
     MaterialXInput coat{}, coatColor{}, coatRoughness{};
     MaterialXInput emission{}, emissionColor{};
     MaterialXInput opacity{}, thin{}, normal{}, coatNormal{};
+    MaterialXInput film{}, filmIor{}, filmThickness{}; // without a share of its own it is there where it is thick
+    MaterialXInput dispersion{}, abbe{};               // with an Abbe number: times 20 over that
+    MaterialXInput anisotropy{}, anisotropyRotation{};
     // Of glTF alone.
     MaterialXInput alphaMode{}, alphaCutoff{}, thickness{}, attenuationColor{}, attenuationDistance{};
     bool isSheenSquared = false; // its roughness is the square of ours
+    double filmUnit = 1;         // of filmThickness, in nm
     // What no material here has: a notice says so where a document gives it another value.
     std::span<const MaterialXInput> leftOut{};
 };

@@ -28,13 +28,15 @@ bool isAlways(const ColorOrTexture& color, double value) {
 void simplify(MaterialDesc& material) {
     const PrincipledDesc& p = material.principled;
     const bool hasOneLayer = isAlways(p.metallic, 0) && isAlways(p.clearcoat, 0) && isAlways(p.sheenColor, 0) &&
-                             isAlways(p.opacity, 1) && p.normalTexture.empty();
+                             isAlways(p.opacity, 1) && p.normalTexture.empty() && isAlways(p.iridescence, 0) &&
+                             isAlways(p.anisotropy, 0);
     if (!hasOneLayer) return;
     if (isAlways(p.specular, 0) && isAlways(p.transmission, 0)) {
         material.kind = MaterialKind::Lambertian;
         material.principled = {};
     } else if (isAlways(p.transmission, 1) && isAlways(p.roughness, 0) && isAlways(p.specular, 1) &&
-               isAlways(p.specularColor, 1) && isAlways(material.albedo, 1) && !p.isThin && !p.attenuationDistance) {
+               isAlways(p.specularColor, 1) && isAlways(material.albedo, 1) && !p.isThin && !p.attenuationDistance &&
+               p.dispersion == 0) {
         material.kind = MaterialKind::Dielectric;
         material.parameters[0] = p.ior;
         material.principled = {};
@@ -106,8 +108,8 @@ ColorOrTexture MaterialXSurface::color(const MaterialXInput& input, const glm::d
 
 std::string MaterialXSurface::normals(const MaterialXInput& input, double& scale) {
     const auto found = signal(input);
-    if (!found) return {};
-    if (!found->image || !found->isNormalMap) {
+    if (!found || !found->image) return {}; // constant ones are those of the surface
+    if (!found->isNormalMap) {
         leaveOut(input, "left out: normals come from an image by a normalmap");
         return {};
     }
@@ -225,6 +227,32 @@ void MaterialXSurface::addOpacity(PrincipledDesc& p) {
     if (hasMode && mode == kMask) p.alphaCutoff = constant(model_.alphaCutoff, 0, 1);
 }
 
+void MaterialXSurface::addFilm(PrincipledDesc& p) {
+    const double thickness = model_.filmUnit * constant(model_.filmThickness, 0, kLargest / model_.filmUnit);
+    if (model_.film.name != nullptr)
+        p.iridescence = number(model_.film);
+    else
+        p.iridescence.factor = thickness > 0 ? 1 : 0;
+    if (p.iridescence.factor == 0) return;
+    p.iridescenceIor = constant(model_.filmIor, 1, kLargestFilmIor);
+    p.iridescenceThicknessMaximum = thickness; // which counts while iridescenceThickness is 1
+}
+
+void MaterialXSurface::addDispersion(PrincipledDesc& p) {
+    constexpr double kStrong = 20; // the Abbe number of a dispersion of 1
+    if (p.transmission.factor == 0) return;
+    p.dispersion = model_.dispersion.name != nullptr ? constant(model_.dispersion, 0, kLargest) : 1;
+    if (model_.abbe.name == nullptr) return;
+    const double abbe = constant(model_.abbe, 0, kLargest);
+    p.dispersion = abbe > 0 ? std::min(p.dispersion * kStrong / abbe, kLargest) : 0;
+}
+
+void MaterialXSurface::addAnisotropy(PrincipledDesc& p) {
+    if (model_.anisotropy.name == nullptr) return;
+    p.anisotropy = number(model_.anisotropy);
+    if (p.anisotropy.factor != 0) p.anisotropyRotation = constant(model_.anisotropyRotation, -kLargest, kLargest);
+}
+
 void MaterialXSurface::addNotices() {
     for (const MaterialXInput& input : model_.leftOut) {
         if (node_.child("input", input.name) == nullptr) continue;
@@ -241,6 +269,9 @@ MaterialDesc MaterialXSurface::material() {
     addCoatAndSheen(material);
     addEmission(material);
     addOpacity(material.principled);
+    addFilm(material.principled);
+    addDispersion(material.principled);
+    addAnisotropy(material.principled);
     addNotices();
     simplify(material);
     return material;

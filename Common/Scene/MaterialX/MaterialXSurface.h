@@ -34,6 +34,9 @@ class MaterialXSurface {
     void addCoatAndSheen(MaterialDesc& material);
     void addEmission(MaterialDesc& material);
     void addOpacity(PrincipledDesc& p);
+    void addFilm(PrincipledDesc& p);
+    void addDispersion(PrincipledDesc& p);
+    void addAnisotropy(PrincipledDesc& p);
     void addNotices();
     void leaveOut(const MaterialXInput& input, const std::string& what);
 

@@ -111,8 +111,25 @@ class MaterialXWriter {
         number("sheen_roughness", p.sheenRoughness, 0);
         normals("normal", p.normalTexture, p.normalScale);
         normals("clearcoat_normal", p.clearcoatNormalTexture, p.clearcoatNormalScale);
+        writeFilm(p);
+        number("anisotropy_strength", p.anisotropy, 0);
+        value("anisotropy_rotation", p.anisotropyRotation, 0);
+        value("dispersion", p.dispersion, 0);
+        if (!p.anisotropyTexture.empty()) notices_.emplace_back("the image of directions of anisotropy is left out");
+        if (p.diffuseTransmission.factor != 0) notices_.emplace_back("diffuse transmission is left out");
         writeOpacity(p);
         writeEmission(material);
+    }
+
+    void writeFilm(const PrincipledDesc& p) {
+        if (p.iridescence.factor == 0) return;
+        number("iridescence", p.iridescence, 0);
+        value("iridescence_ior", p.iridescenceIor, 1.3);
+        if (!p.iridescenceThickness.texture.empty())
+            notices_.emplace_back("the image of the film's thickness is left out: it is as thick everywhere");
+        const double share = std::abs(p.iridescenceThickness.factor);
+        const double least = p.iridescenceThicknessMinimum, most = p.iridescenceThicknessMaximum;
+        value("iridescence_thickness", least + share * (most - least), 100);
     }
 
     void writeOpacity(const PrincipledDesc& p) {
