@@ -283,7 +283,8 @@ std::string headline(const Gui& gui) {
         case RacePhase::Preparing:
             return race.stage;
         case RacePhase::Reference:
-            return "Reference: " + roughDuration(race.referenceSeconds) + " of " + roughDuration(race.referenceWanted);
+            return "Reference: " + roughDuration(race.referenceSeconds) + " of at least " +
+                   roughDuration(race.referenceWanted);
         case RacePhase::Running:
             return "The first errors are yet to come";
         case RacePhase::Over:

@@ -63,7 +63,7 @@ ProgressTexts progressOfRace(const app::RaceState& race) {
         case Phase::Reference:
             texts.share = static_cast<float>(std::min(1.0, race.referenceSeconds / race.referenceWanted));
             texts.bar = "reference";
-            texts.line = "Rendering the race's reference: " + roughDuration(race.referenceSeconds) + " of " +
+            texts.line = "Rendering the race's reference: " + roughDuration(race.referenceSeconds) + " of at least " +
                          roughDuration(race.referenceWanted);
             return texts;
         case Phase::Running:
