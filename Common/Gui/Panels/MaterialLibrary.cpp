@@ -63,8 +63,8 @@ void drawPlace(Gui& gui, std::size_t index, float width) {
     const ImVec2 corner(ImGui::GetItemRectMin().x + margin, ImGui::GetItemRectMin().y + margin);
     drawPicture(gui, preset, corner, side);
     float top = corner.y + side + 0.5f * margin;
-    for (const std::string& line : elidedLines(preset.name, side, 2, textWidth)) {
-        ImGui::GetWindowDrawList()->AddText({corner.x, top}, ImGui::GetColorU32(ImGuiCol_Text), line.c_str());
+    for (const std::string& line : elidedLines(preset.name, width, 2, textWidth)) {
+        ImGui::GetWindowDrawList()->AddText({corner.x - margin, top}, ImGui::GetColorU32(ImGuiCol_Text), line.c_str());
         top += ImGui::GetTextLineHeight();
     }
 }
