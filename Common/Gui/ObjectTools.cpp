@@ -60,7 +60,7 @@ std::vector<app::GizmoHandle> handlesNow(Gui& gui, const Rect& image) {
 
 // The copies are what moves; they and their way are one step.
 bool beginWithCopies(Gui& gui) {
-    SceneEditing::GizmoDrag& drag = *gui.editing.drag;
+    GizmoDrag& drag = *gui.editing.drag;
     drag.duplicates = false;
     drag.originals = gui.editor.selected().paths();
     drag.copyGesture = gui.editor.newGesture();

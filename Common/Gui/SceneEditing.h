@@ -17,6 +17,14 @@ namespace rt::gui {
 
 struct Gui;
 
+// What the pointer moves by a handle of the gizmo.
+struct GizmoDrag {
+    bool hasBegun = false;                    // the pointer has left where it was pressed
+    bool duplicates = false;                  // as soon as it does
+    std::vector<scene::ObjectPath> originals; // of copies, which move; none
+    std::uint64_t copyGesture = 0;
+};
+
 // What the window keeps of it between frames.
 struct SceneEditing {
     // A pixel of the picture that was clicked, and where it was seen from.
@@ -26,13 +34,6 @@ struct SceneEditing {
         bool isAdded = false; // to what is selected, or removed from it
     };
     std::optional<Click> click; // until what it meets can be named
-    // What the pointer moves by a handle of the gizmo.
-    struct GizmoDrag {
-        bool hasBegun = false;                    // the pointer has left where it was pressed
-        bool duplicates = false;                  // as soon as it does
-        std::vector<scene::ObjectPath> originals; // of copies, which move; none
-        std::uint64_t copyGesture = 0;
-    };
     std::optional<app::ObjectTool> tool;
     std::optional<GizmoDrag> drag; // where the tool is by the gizmo
     bool isToolStale = false;      // though the pointer rests
