@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 class EditingTest : public WindowTest {
   protected:
-    static constexpr int kBallX = 826, kBallY = 470; // of the screen: near the picture's middle
+    static constexpr int kBallX = 826, kBallY = 470; // of the screen: near the picture's middle,
+    static constexpr int kMiddleY = 449;             // which is here
 
     // Of the panels only that of the objects is folded out.
     void startWith(const fs::path& file) {
@@ -225,7 +226,7 @@ TEST_P(EditingTest, TheGizmoMovesSnapsAndDuplicates) {
     startWithBall();
     ASSERT_FALSE(HasFatalFailure());
     ASSERT_TRUE(selectBall()) << log();
-    const std::string onArrow = "mousemove " + std::to_string(kBallX + 45) + " " + std::to_string(kBallY);
+    const std::string onArrow = "mousemove " + std::to_string(kBallX + 45) + " " + std::to_string(kMiddleY);
     const std::string way = " sleep 0.5 mousemove_relative 40 2 sleep 0.5 mousemove_relative 60 3 sleep 0.8";
     act(onArrow + " sleep 0.5 mousedown 1" + way + " key Escape sleep 0.5 mouseup 1"); // as if it had not been
     EXPECT_FALSE(isMarkedUnsaved());
