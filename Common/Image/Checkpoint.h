@@ -26,7 +26,7 @@ void writeCheckpoint(std::ostream& out, const nlohmann::json& render, const Film
 Checkpoint readCheckpoint(const std::filesystem::path& path);
 Checkpoint readCheckpoint(std::istream& in, const std::string& name);
 
-// How long the film has been sampled, in which parts of one image differ; earlier programs do not tell.
+// How long the film has been sampled, in which parts of one image differ; only films saved every so often tell.
 inline constexpr const char* kSecondsField = "seconds";
 
 // Choices that earlier programs did not have and checkpoints of theirs do not tell of: connections, split camera rays,

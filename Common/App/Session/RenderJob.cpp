@@ -168,7 +168,9 @@ std::string RenderJob::statisticsJson() {
 
 void RenderJob::save(const std::string& file, const std::atomic<bool>& cancel) const {
     const Interruptible interruptible(cancel);
-    saveCheckpoint(file, options_.settings, *scene_, engine_->report(), run_->seconds(), engine_->film());
+    // Who looks on while a film grows asks how long it took; else equal films make equal files.
+    const std::optional<double> seconds = options_.saveEvery ? std::optional(run_->seconds()) : std::nullopt;
+    saveCheckpoint(file, options_.settings, *scene_, engine_->report(), seconds, engine_->film());
 }
 
 // Samples that no output took must not be lost: they go to a new checkpoint in the first folder that takes it.

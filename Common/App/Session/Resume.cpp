@@ -74,12 +74,12 @@ void checkSpp(const std::string& file, std::uint32_t stored, const RenderSetting
 } // namespace
 
 void saveCheckpoint(const std::string& file, const RenderSettings& settings, const scene::CompiledScene& scene,
-                    const EngineReport& report, double seconds, const image::Film& film) {
+                    const EngineReport& report, std::optional<double> seconds, const image::Film& film) {
     nlohmann::json header = identity(settings, scene, report);
     header["spp"] = settings.spp;
     header["spp_is_known"] = settings.sppIsKnown;
     header["kernel"] = report.kernel;
-    header[image::kSecondsField] = seconds;
+    if (seconds) header[image::kSecondsField] = *seconds;
     image::writeCheckpoint(file, header, film);
 }
 

@@ -1,5 +1,6 @@
 // Checkpoints: going on with a render exactly as if it had never stopped.
 #pragma once
+#include <optional>
 #include <string>
 
 #include "Common/Image/Film.h"
@@ -9,9 +10,9 @@
 
 namespace rt::app {
 
-// Replaces the file. `seconds`: of sampling, by this program. Throws RenderError.
+// Replaces the file. `seconds`: of sampling, by this program, if the file is to tell. Throws RenderError.
 void saveCheckpoint(const std::string& file, const RenderSettings& settings, const scene::CompiledScene& scene,
-                    const EngineReport& report, double seconds, const image::Film& film);
+                    const EngineReport& report, std::optional<double> seconds, const image::Film& film);
 
 // The film to go on from. The render that is asked for must be the same but for its length; InputError names the first
 // field that differs. What only says how the film is kept, or how its strata were laid out, is taken over into
