@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace rt::probe {
 
@@ -11,18 +12,25 @@ using namespace rt::shared;
 
 namespace {
 
-constexpr float kUnequal = 0.2f;           // of the most that a cell's places have
-constexpr std::uint32_t kFiner = 4;        // as many places, squared, where they are unequal
+constexpr float kUnequal = 0.2f; // of the most that a cell's places have
+// Places of a cell, squared, where they are unequal.
+constexpr std::uint32_t kFirstSide = 16, kGoodSide = 32, kMostSide = 64;
 constexpr std::size_t kRefinedAtOnce = 16; // cells
+constexpr std::uint32_t kSought = 4096;    // samples, for what lies between places
+constexpr std::uint32_t kSoughtNumbers = 0x2545f491;
 
 } // namespace
 
 double DirectionMap::integral() const {
     double sum = 0;
     for (const float value : values) sum += value;
+    return values.empty() ? 0 : sum * cellSolidAngle();
+}
+
+double DirectionMap::cellSolidAngle() const {
     // A disk of the area pi, in a square of the area 4, is half of all directions.
-    const double solidAngle = projection == Projection::Sphere ? 4 * std::numbers::pi : 8;
-    return values.empty() ? 0 : sum / static_cast<double>(values.size()) * solidAngle;
+    const double all = projection == Projection::Sphere ? 4 * std::numbers::pi : 8;
+    return all / (static_cast<double>(width()) * height);
 }
 
 float DirectionMap::maximum() const {
@@ -70,7 +78,7 @@ MapBuilder::MapBuilder(const Probe& probe, const Strategy& strategy, const MapSe
       map_{settings.projection, settings.height, makeFrame(probe.vertex().shading), {}},
       sums_(std::size_t{map_.width()} * map_.height),
       passes_(isTraced(settings.quantity) ? settings.paths : settings.side * settings.side) {
-    if (settings.quantity != Quantity::Density) return;
+    if (!isRefined()) return;
     least_.assign(sums_.size(), std::numeric_limits<float>::max());
     most_.assign(sums_.size(), 0.0f);
 }
@@ -115,11 +123,21 @@ void MapBuilder::advance() {
 
 void MapBuilder::findUnequal() {
     const auto width = static_cast<std::int64_t>(map_.width()), height = static_cast<std::int64_t>(map_.height);
-    std::vector<char> isUnequal(sums_.size());
+    std::vector<char> isFound(sums_.size()), isUnequal(sums_.size());
+    for (std::size_t cell = 0; cell < sums_.size(); ++cell)
+        isFound[cell] = most_[cell] - least_[cell] > kUnequal * most_[cell] ? 1 : 0;
+    const NumberSettings numbers{app::SamplerKind::Sobol, 1, numbers_.seed ^ kSoughtNumbers};
+    for (std::uint32_t i = 0; i < kSought; ++i) {
+        const auto direction = probe_->draw(strategy_, numbers, i).direction;
+        const auto place = direction ? map_.placeOf(*direction) : std::nullopt;
+        if (!place) continue;
+        const std::size_t cell = map_.cellAt(*place);
+        const double own = probe_->density(strategy_, *direction), mean = sums_[cell] / passes_;
+        if (std::abs(own - mean) > kUnequal * std::max(own, mean)) isFound[cell] = 1;
+    }
     for (std::int64_t row = 0; row < height; ++row)
         for (std::int64_t column = 0; column < width; ++column) {
-            const auto cell = static_cast<std::size_t>(row * width + column);
-            if (!(most_[cell] - least_[cell] > kUnequal * most_[cell])) continue;
+            if (isFound[static_cast<std::size_t>(row * width + column)] == 0) continue;
             for (std::int64_t y = std::max<std::int64_t>(row - 1, 0); y <= std::min(row + 1, height - 1); ++y)
                 for (std::int64_t x = column - 1; x <= column + 1; ++x)
                     isUnequal[static_cast<std::size_t>(y * width + (x + width) % width)] = 1;
@@ -128,13 +146,20 @@ void MapBuilder::findUnequal() {
         if (isUnequal[cell] != 0) unequal_.push_back(cell);
 }
 
+// By twice as many places a side, until that makes no difference; where something lies, not before what is small in a
+// cell is known well.
 void MapBuilder::refine(std::size_t cell) {
-    const std::uint32_t side = kFiner * settings_.side, count = side * side;
     const auto column = static_cast<std::uint32_t>(cell % map_.width());
     const auto row = static_cast<std::uint32_t>(cell / map_.width());
-    double sum = 0;
-    for (std::uint32_t i = 0; i < count; ++i) sum += placeValue(column, row, i, side);
-    sums_[cell] = sum / count * passes_;
+    const double least = settings_.tolerance / map_.cellSolidAngle();
+    double mean = sums_[cell] / passes_;
+    for (std::uint32_t side = kFirstSide; side <= kMostSide; side *= 2) {
+        double sum = 0;
+        for (std::uint32_t i = 0; i < side * side; ++i) sum += placeValue(column, row, i, side);
+        const double before = std::exchange(mean, sum / (side * side));
+        if (std::abs(mean - before) < least && (side >= kGoodSide || mean == 0)) break;
+    }
+    sums_[cell] = mean * passes_;
 }
 
 DirectionMap MapBuilder::map() const {

@@ -19,6 +19,7 @@ struct DirectionMap {
     std::uint32_t width() const { return projection == Projection::Sphere ? 2 * height : height; }
     // Over all directions, or those above the surface: of a density 1, less what the strategy drops.
     double integral() const;
+    double cellSolidAngle() const;
     float maximum() const;
     // Where a direction is, in shares of the map from its upper left; nothing below the surface where that is not seen.
     std::optional<glm::dvec2> placeOf(const shared::vec3& direction) const;
@@ -36,10 +37,12 @@ struct MapSettings {
     std::uint32_t height = 128;
     std::uint32_t side = 4;   // places of a cell, squared; of a density more where those differ, as at edges of lights
     std::uint32_t paths = 16; // of a cell instead, where rays are traced
+    double tolerance = 2e-5;  // of a density's integral over a cell
 };
 
 // Makes a map row by row, in passes over all of it: there is one of fewer places at any time. Then cells of a density
-// whose places differ, and their neighbours, get more of them, so that samples can be tested by it.
+// whose places differ, or samples from them, and their neighbours get more of them, as lamps may be smaller than what
+// is between two places: samples can be tested by it.
 class MapBuilder {
   public:
     // The probe must outlive it.
@@ -55,6 +58,7 @@ class MapBuilder {
     double pathValue(std::uint32_t column, std::uint32_t row) const;
     double valueIn(std::uint32_t column, std::uint32_t row, const glm::dvec2& inCell,
                    const shared::Sampler& sampler) const;
+    bool isRefined() const { return settings_.quantity == Quantity::Density && settings_.side > 1; }
     void findUnequal();
     void refine(std::size_t cell);
 

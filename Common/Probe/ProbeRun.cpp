@@ -10,6 +10,7 @@ constexpr std::uint32_t kCoarseRows = 16;
 constexpr std::uint32_t kPortion = 256; // samples
 constexpr std::uint32_t kTests = 64;    // as samples grow, about
 constexpr std::size_t kLikelyLights = 16;
+constexpr double kErrorOfCount = 0.05; // of a cell's expected samples
 constexpr std::uint32_t kPointsOfEdge = 96;
 
 MapSettings mapSettings(const ProbeSettings& settings, Projection projection) {
@@ -49,8 +50,10 @@ std::vector<std::vector<shared::vec3>> edgesOf(const Probe& probe, const ProbeSe
 ProbeRun::ProbeRun(const Probe& probe, const ProbeSettings& settings)
     : probe_(&probe),
       settings_(settings),
-      density_(probe, settings.strategy, {Quantity::Density, Projection::Sphere, settings.rows, settings.side, 1},
-               settings.numbers.seed),
+      density_(
+          probe, settings.strategy,
+          {Quantity::Density, Projection::Sphere, settings.rows, settings.side, 1, kErrorOfCount / settings.samples},
+          settings.numbers.seed),
       counts_(std::size_t{2} * settings.rows * settings.rows) {
     for (const Projection projection : settings.projections)
         if (!isDensity(settings, projection))

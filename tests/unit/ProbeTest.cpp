@@ -27,6 +27,15 @@ class Probes : public testing::Test {
         probe_ = Probe::at(*formulas_, kRoomSide / 2, kRoomSide / 2);
         ASSERT_TRUE(probe_);
     }
+    // A pixel of a built-in scene.
+    void lookAt(const std::string& scene, std::uint32_t x, std::uint32_t y) {
+        app::RenderSettings settings;
+        settings.width = settings.height = kRoomSide;
+        formulas_ =
+            std::make_unique<SceneFormulas>(app::compile(app::SceneRequest{scene}), test::optionsFor(settings), 0.0);
+        probe_ = Probe::at(*formulas_, x, y);
+        ASSERT_TRUE(probe_);
+    }
     ProbeResult resultOf(const ProbeSettings& settings) const {
         ProbeRun run(*probe_, settings);
         while (!run.isDone()) run.advance();
@@ -43,6 +52,7 @@ class Probes : public testing::Test {
         for (const Strategy& strategy : allStrategies()) {
             ProbeSettings settings;
             settings.strategy = strategy;
+            settings.rows = 64;
             const ProbeResult result = resultOf(settings);
             const std::string name = what + ", " + nameOf(strategy);
             const double dropped = static_cast<double>(result.dropped) / result.samples;
@@ -76,16 +86,27 @@ TEST_F(Probes, DensitiesIntegrateToOneAndSamplesFollowThem) {
     }
 }
 
+// Whose smallest one is less than what is between two places of a cell.
+TEST_F(Probes, ThatHoldsForSmallLamps) {
+    lookAt("veach-mis", kRoomSide / 2, kRoomSide * 3 / 4);
+    ProbeSettings settings;
+    settings.strategy = {StrategyKind::Light, 0};
+    const ProbeResult smallest = resultOf(settings);
+    EXPECT_NEAR(smallest.density.integral(), 1, 0.03);
+    for (const StrategyKind kind : {StrategyKind::Lights, StrategyKind::Mixture, StrategyKind::Mis}) {
+        settings.strategy = {kind};
+        const ProbeResult result = resultOf(settings);
+        const double dropped = static_cast<double>(result.dropped) / result.samples;
+        EXPECT_NEAR(result.density.integral() + dropped, 1, 0.02) << nameOf(settings.strategy);
+        ASSERT_TRUE(result.tests.back().test);
+        EXPECT_GT(result.tests.back().test->p, 1e-4) << nameOf(settings.strategy);
+    }
+}
+
 TEST_F(Probes, ThatHoldsAmongManyLights) {
-    app::RenderSettings settings;
-    settings.width = settings.height = kRoomSide;
-    formulas_ = std::make_unique<SceneFormulas>(app::compile(app::SceneRequest{"many-lights:100"}),
-                                                test::optionsFor(settings), 0.0);
-    probe_ = Probe::at(*formulas_, kRoomSide / 2, kRoomSide - 4);
-    ASSERT_TRUE(probe_);
+    lookAt("many-lights:100", kRoomSide / 2, kRoomSide - 4);
     EXPECT_FALSE(probe_->isOfOneSquare({StrategyKind::Lights})) << "a tree takes numbers of its own";
     ProbeSettings asked;
-    asked.samples = 1024;
     const ProbeResult result = resultOf(asked);
     const double dropped = static_cast<double>(result.dropped) / result.samples;
     EXPECT_NEAR(result.density.integral() + dropped, 1, 0.05);
@@ -186,12 +207,7 @@ TEST_F(Probes, EdgesOfStrataLieWhereIsDrawn) {
 
 // In a closed room where everything emits and reflects a half.
 TEST_F(Probes, RadianceOfAFurnaceIsOneFromEverywhere) {
-    app::RenderSettings settings;
-    settings.width = settings.height = kRoomSide;
-    formulas_ =
-        std::make_unique<SceneFormulas>(app::compile(app::SceneRequest{"furnace"}), test::optionsFor(settings), 0.0);
-    probe_ = Probe::at(*formulas_, kRoomSide / 2, kRoomSide / 2);
-    ASSERT_TRUE(probe_);
+    lookAt("furnace", kRoomSide / 2, kRoomSide / 2);
     const DirectionMap map = mapOf(*probe_, {}, {Quantity::Radiance, Projection::Sphere, 16, 1, 64}, 1);
     EXPECT_NEAR(map.integral(), 2 * std::numbers::pi, 0.05 * 2 * std::numbers::pi);
     const DirectionMap product = mapOf(*probe_, {}, {Quantity::Product, Projection::Sphere, 32, 1, 64}, 1);
