@@ -61,7 +61,7 @@ void drawHistogram(const Gui& gui) {
     std::snprintf(text, sizeof text, "%.2g %% above white, %.2g %% black", 100 * shown.aboveWhite, 100 * shown.black);
     const float maximum = *std::max_element(shown.shares.begin(), shown.shares.end());
     ImGui::PlotHistogram("##histogram", shown.shares.data(), kBins, 0, nullptr, 0, std::max(maximum, 1e-6f),
-                         {-1, 5 * ImGui::GetFontSize()});
+                         {ImGui::GetContentRegionAvail().x, 5 * ImGui::GetFontSize()});
     tooltip("Luminance of the picture in stops, from 10 below white to 6 above, as it is exposed");
     note(text);
 }
