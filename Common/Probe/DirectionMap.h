@@ -37,7 +37,7 @@ struct MapSettings {
     std::uint32_t height = 128;
     std::uint32_t side = 4;   // places of a cell, squared; of a density more where those differ, as at edges of lights
     std::uint32_t paths = 16; // of a cell instead, where rays are traced
-    double tolerance = 2e-5;  // of a density's integral over a cell
+    double tolerance = 0.05 / 4096; // of a density's integral over a cell: as for so many samples
 };
 
 // Makes a map row by row, in passes over all of it: there is one of fewer places at any time. Then cells of a density
