@@ -71,6 +71,15 @@ class EditingTest : public WindowTest {
             },
             kSeen);
     }
+    // The window is closed, the edits are saved, and the ball has that material in the file.
+    void endAndExpectOnBall(const std::string& material) {
+        key("ctrl+q");
+        ASSERT_TRUE(appears("Save them")) << log();
+        const auto isSaved = [&] { return saved().is_object() && saved()["materials"].contains(material); };
+        ASSERT_TRUE(clickText("Save them", isSaved)) << log();
+        EXPECT_EQ(waitForEnd(), 0) << log();
+        EXPECT_EQ(saved()["objects"][0]["material"], material);
+    }
     static constexpr Place kSidePlace{0, 0, kSide, kHeight};
     fs::path file_;
 };
@@ -115,12 +124,8 @@ TEST_P(EditingTest, TheBallGetsTheMaterialOfAFileThatIsDroppedOnIt) {
         return isMarkedUnsaved();
     };
     ASSERT_TRUE(eventually(isDropped, kSeen)) << log();
-    key("ctrl+q");
-    ASSERT_TRUE(appears("Save them")) << log();
-    const auto isSaved = [this] { return saved().is_object() && saved()["materials"].contains("Cherry"); };
-    ASSERT_TRUE(clickText("Save them", isSaved)) << log();
-    EXPECT_EQ(waitForEnd(), 0) << log();
-    EXPECT_EQ(saved()["objects"][0]["material"], "Cherry");
+    endAndExpectOnBall("Cherry");
+    ASSERT_FALSE(HasFatalFailure());
     EXPECT_EQ(saved()["materials"]["Cherry"]["base_color"][0], 0.5);
 }
 #endif
@@ -153,12 +158,8 @@ TEST_P(EditingTest, TheBallGetsMaterialsOfTheLibrary) {
         return isMarkedUnsaved();
     };
     ASSERT_TRUE(eventually(isDropped, kSeen)) << log();
-    key("ctrl+q");
-    ASSERT_TRUE(appears("Save them")) << log();
-    const auto isSaved = [this] { return saved().is_object() && saved()["materials"].contains("Matt gold"); };
-    ASSERT_TRUE(clickText("Save them", isSaved)) << log();
-    EXPECT_EQ(waitForEnd(), 0) << log();
-    EXPECT_EQ(saved()["objects"][0]["material"], "Matt gold");
+    endAndExpectOnBall("Matt gold");
+    ASSERT_FALSE(HasFatalFailure());
     EXPECT_EQ(saved()["materials"]["Matt gold"]["metallic"], 1);
     EXPECT_FALSE(saved()["materials"].contains("Gold")) << "taken back";
 }
