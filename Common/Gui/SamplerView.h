@@ -17,8 +17,8 @@ enum class SampleSpace { Sphere, Hemisphere, UnitSquare };
 
 // What the window keeps of it between frames.
 struct SamplerView {
-    // A pixel, and where it was seen from: the direction to the camera is part of the question, so that the answer stays
-    // while the camera moves.
+    // A pixel, and where it was seen from: the direction to the camera is part of the question, so that the answer
+    // stays while the camera moves.
     struct Point {
         scene::CameraDesc camera;
         std::array<std::uint32_t, 2> pixel{}, size{};

@@ -1,5 +1,5 @@
-// All that there is to know of a surface: a map, samples and their test, the variance of each strategy. It is worked out
-// in small portions, and there is something to show after the first ones.
+// All that there is to know of a surface: a map, samples and their test, the variance of each strategy. It is worked
+// out in small portions, and there is something to show after the first ones.
 #pragma once
 #include <cstddef>
 #include <cstdint>

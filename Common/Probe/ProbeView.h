@@ -47,8 +47,8 @@ class ProbeView {
     ProbeView(const ProbeView&) = delete;
     ProbeView& operator=(const ProbeView&) = delete;
 
-    // What was wished before is given up, but not before its first samples and map are there: a point that is dragged is
-    // followed. Nothing: nothing is to be worked on. The same wish once more changes nothing.
+    // What was wished before is given up, but not before its first samples and map are there: a point that is dragged
+    // is followed. Nothing: nothing is to be worked on. The same wish once more changes nothing.
     void wish(std::optional<ProbeWish> wish);
     // Works out all of the wish, on another thread, and writes picture and figures as ray-tracing-image probe does: the
     // picture to `file`, the figures beside it as .json. One at a time.

@@ -30,7 +30,8 @@ const std::map<std::string, std::vector<std::string>> kArrows = {
     {"Common/Tools", {"Common/App", "Common/Bench", "Common/Probe"}},
     {"Common/Mpi", {"Common/App"}},
     {"Common/Vulkan", {"Common/Core"}},
-    // The panel of the sampler shows what Probe works out, which sees the scene as App has loaded it: below App it cannot be.
+    // The panel of the sampler shows what Probe works out, which sees the scene as App has loaded it: below App it
+    // cannot be.
     {"Common/Gui", {"Common/App", "Common/Probe", "Common/Vulkan", "Shaders"}},
     {"RayTracingCPU", {"Common/Render", "Common/Accel"}},
     {"RayTracingGPU", {"Common/Render", "Common/Accel", "Common/Vulkan", "Shaders"}},

@@ -101,8 +101,8 @@ TEST(DenoiseMix, DetailsAreNotLost) {
     EXPECT_LT(withMix, 0.9 * withoutMix);
 }
 
-// Values of one half's bright sample and the other half's ordinary one, which finds no pixel like it and stays as it is.
-// Nothing of the bright one may come back.
+// Values of one half's bright sample and the other half's ordinary one, which finds no pixel like it and stays as it
+// is. Nothing of the bright one may come back.
 TEST(DenoiseMix, NoiseOfOneHalfIsNoErrorOfTheFilter) {
     const shared::DenoisedValue bright{0.15f, 15.7f, 0.006f, 0}, other{0.048f, 0.048f, 0.91f, 0};
     const shared::DenoisedValue values[2] = {bright, other};

@@ -1,5 +1,5 @@
-// A probe that is watched: what it answers is what a run by itself gives, the newest wish is answered, and what is saved
-// is what ray-tracing-image writes.
+// A probe that is watched: what it answers is what a run by itself gives, the newest wish is answered, and what is
+// saved is what ray-tracing-image writes.
 #include <atomic>
 #include <chrono>
 #include <condition_variable>

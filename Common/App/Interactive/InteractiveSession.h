@@ -70,8 +70,8 @@ class InteractiveSession {
     void loadReference(const std::string& file) {
         mailbox_.post(Cancel::Nothing, [&](Requests& requests) { requests.referenceFile = file; });
     }
-    // Races the entrants in the present view, each for the same time; the film rests meanwhile. What changes the view or
-    // goes on with the film ends it.
+    // Races the entrants in the present view, each for the same time; the film rests meanwhile. What changes the view
+    // or goes on with the film ends it.
     void race(const RaceRequest& request) {
         mailbox_.post(Cancel::Slice, [&](Requests& requests) { requests.race = request; });
     }

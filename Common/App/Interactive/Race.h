@@ -54,7 +54,8 @@ class Race {
     std::optional<std::size_t> next() const;
     double secondsLeft(std::size_t entrant) const;
     void spend(std::size_t entrant, double seconds); // that it has had by now, in all
-    // Whether its picture is to be looked at: at times that grow by a fifth, by half where that is filtered, and at its end.
+    // Whether its picture is to be looked at: at times that grow by a fifth, by half where that is filtered, and at its
+    // end.
     bool isLookDue(std::size_t entrant) const;
     void look(std::size_t entrant, std::optional<ErrorPoint> point); // none: there is no whole picture yet
     void finish(std::size_t entrant);                                // it has had its time, and has been looked at then

@@ -23,10 +23,11 @@ struct DenoiseMix {
     float change;
 };
 
-// What is to be added to denoiseError() of one pixel where one half alone has met something bright. By that half no other
-// pixel is like this one, so that the other half stays as it is: its factor is nearly 1, though it has no noise. With the
-// mean of both factors most of the bright half's noise counts as let through, and what the filter took away as its error.
-// So each factor counts as far as its half was changed. Over whole pictures denoiseError() is nearer to the truth.
+// What is to be added to denoiseError() of one pixel where one half alone has met something bright. By that half no
+// other pixel is like this one, so that the other half stays as it is: its factor is nearly 1, though it has no noise.
+// With the mean of both factors most of the bright half's noise counts as let through, and what the filter took away as
+// its error. So each factor counts as far as its half was changed. Over whole pictures denoiseError() is nearer to the
+// truth.
 RT_FN float denoiseMixCorrection(DenoisedValue a, DenoisedValue b) {
     float changeA = (a.filtered - a.raw) * (a.filtered - a.raw);
     float changeB = (b.filtered - b.raw) * (b.filtered - b.raw);
