@@ -231,11 +231,13 @@ std::vector<VkAccelerationStructureInstanceKHR> AccelStructure::listInstances(co
 }
 
 void AccelStructure::buildTopLevel(AccelBuilder& builder, const scene::CompiledScene& scene) {
-    const std::vector<VkAccelerationStructureInstanceKHR> instances = listInstances(scene);
-    if (instances.size() > context_.limits().maxInstances) {
+    std::vector<VkAccelerationStructureInstanceKHR> instances = listInstances(scene);
+    const auto count = static_cast<std::uint32_t>(instances.size());
+    if (count > context_.limits().maxInstances) {
         throw RenderError(context_.info().name + " takes at most " + std::to_string(context_.limits().maxInstances) +
-                          " instances; the scene has " + std::to_string(instances.size()));
+                          " instances; the scene has " + std::to_string(count));
     }
+    if (count == 0) instances.emplace_back(); // not part of the level, but Vulkan wants an address even of none
     const auto buffer = vulkan::deviceArray<VkAccelerationStructureInstanceKHR>(context_, instances, "instances",
                                                                                 kBuildInput, kInstanceAlignment);
     VkAccelerationStructureGeometryKHR geometry{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
@@ -243,7 +245,7 @@ void AccelStructure::buildTopLevel(AccelBuilder& builder, const scene::CompiledS
     geometry.geometry.instances.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR;
     geometry.geometry.instances.data.deviceAddress = buffer.address();
     topLevel_ = std::make_shared<const AccelStorage>(
-        builder.buildTopLevel({{geometry}, {{static_cast<std::uint32_t>(instances.size()), 0, 0, 0}}}));
+        builder.buildTopLevel({{geometry}, {{count, 0, 0, 0}}}));
 }
 
 } // namespace rt::gpu
