@@ -37,9 +37,8 @@ TEST_P(RaceTest, TwoEstimatorsRaceAndAllIsSaved) {
     startWithPanel();
     ASSERT_FALSE(HasFatalFailure());
     ASSERT_TRUE(appears("Start race", kPanel)) << log();
-    ASSERT_TRUE(clickText("Start race", kPanel, [this] {
-        return isShown("race over", {0, 0, kSide, kHeight});
-    })) << log();
+    const auto isOver = [this] { return isShown("race over", {0, 0, kSide, kHeight}); };
+    ASSERT_TRUE(clickText("Start race", kPanel, isOver)) << log();
     ASSERT_TRUE(save("Save table", "race.csv")) << log();
     std::ifstream table(saved("race.csv"));
     std::string line;
