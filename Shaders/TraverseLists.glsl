@@ -80,6 +80,10 @@ void placeOnRectangle(Ray ray, inout Nearest nearest) {
 Hit traceLinear(Ray ray, bool anyHit, float tMax) {
     TracedRay r = makeTracedRay(ray, true);
     Nearest nearest = nothingWithin(tMax);
+    // Never so, but the block's address is known to all invocations before the loops by this. Mesa 25.2 on processors
+    // goes once more through a loop that all have left, and loads from an address first met in a loop, which is null
+    // for who was not in it.
+    if (isnan(listVectors[0].x)) nearest.t = 0.0f;
     if (has(kFeatures, kFeatureSpheres)) {
         for (uint i = 0u; i < kListedSpheres; i++) {
             vec4 sphere = listVectors[2u * i];
