@@ -244,8 +244,7 @@ void AccelStructure::buildTopLevel(AccelBuilder& builder, const scene::CompiledS
     geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
     geometry.geometry.instances.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR;
     geometry.geometry.instances.data.deviceAddress = buffer.address();
-    topLevel_ = std::make_shared<const AccelStorage>(
-        builder.buildTopLevel({{geometry}, {{count, 0, 0, 0}}}));
+    topLevel_ = std::make_shared<const AccelStorage>(builder.buildTopLevel({{geometry}, {{count, 0, 0, 0}}}));
 }
 
 } // namespace rt::gpu
