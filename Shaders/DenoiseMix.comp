@@ -26,14 +26,23 @@ vec4 oneOf(uint candidate) {
 }
 
 // Of each candidate: the share of the pixels around that chose it.
-vec4 shareOfChoices(ivec2 pixel) {
-    ivec2 first = max(pixel - kDenoiseBlendReach, ivec2(0));
-    ivec2 last = min(pixel + kDenoiseBlendReach, ivec2(launch.width, launch.height) - 1);
+vec4 shareOfChoices(ivec2 pixel, int reach) {
+    ivec2 first = max(pixel - reach, ivec2(0));
+    ivec2 last = min(pixel + reach, ivec2(launch.width, launch.height) - 1);
     vec4 sum = vec4(0.0f);
     for (int y = first.y; y <= last.y; y++)
         for (int x = first.x; x <= last.x; x++) sum += oneOf(choiceAt(ivec2(x, y)));
     ivec2 size = last - first + 1;
     return sum / float(size.x * size.y);
+}
+
+vec4 blend(ivec2 pixel) {
+    vec4 shares = shareOfChoices(pixel, kDenoiseBlendReach);
+    if (launch.candidates <= kRawCandidate) return shares;
+    float raw = shareOfChoices(pixel, kDenoiseRawBlendReach)[kRawCandidate];
+    shares *= denoiseFilterScale(shares[kRawCandidate], raw);
+    shares[kRawCandidate] = raw;
+    return shares;
 }
 
 DenoiseMix mixAt(vec4 shares, ivec2 pixel) {
@@ -54,7 +63,7 @@ void main() {
     uint lane = gl_LocalInvocationIndex;
     sharedMix[lane] = vec2(0.0f);
     if (isInside(pixel)) {
-        vec4 shares = shareOfChoices(pixel);
+        vec4 shares = blend(pixel);
         launch.values.at[pixelIndex(pixel)] = shares;
         if (launch.mixed != 0u) {
             DenoiseMix mix = mixAt(shares, pixel);

@@ -249,10 +249,24 @@ DenoiseErrorSums finishRow(const Halves& halves, const Choice& weights, std::siz
     return sums;
 }
 
-// Blends the candidates by what the pixels around chose, so that no seam is seen where the choice changes.
+// By what the pixels around chose, so that no seam is seen where the choice changes.
+Choice blend(const Choice& chosen, std::size_t threads) {
+    Choice weights;
+    for (std::size_t i = 0; i < kDenoiseCandidates; ++i)
+        weights[i] = boxMean(chosen[i], shared::kDenoiseBlendReach, threads);
+    const Plane raw = boxMean(chosen[kRaw], shared::kDenoiseRawBlendReach, threads);
+    for (std::size_t y = 0; y < raw.height(); ++y)
+        for (std::size_t x = 0; x < raw.width(); ++x) {
+            const float newRaw = raw.row(y)[x];
+            const float scale = shared::denoiseFilterScale(weights[kRaw].row(y)[x], newRaw);
+            for (std::size_t i = 0; i < kRaw; ++i) weights[i].row(y)[x] *= scale;
+            weights[kRaw].row(y)[x] = newRaw;
+        }
+    return weights;
+}
+
 void finish(const Halves& halves, Denoised& result, std::size_t threads) {
-    Choice weights = choose(halves, threads);
-    for (Plane& weight : weights) weight = boxMean(weight, shared::kDenoiseBlendReach, threads);
+    Choice weights = blend(choose(halves, threads), threads);
     if (halves.isMixed()) mixWithRaw(halves, weights, threads);
     for (std::size_t i = 0; i < kDenoiseCandidates; ++i) result.shares[i] = meanOf(weights[i]);
     const std::size_t width = result.picture.width, height = result.picture.height;
