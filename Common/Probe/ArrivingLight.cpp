@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "Common/Accel/Traverse/RayQuery.h"
+#include "Common/Probe/NextHit.h"
 #include "Common/Render/RenderParams.h"
-#include "Common/Shared/Path/Opacity.h"
 #include "Common/Shared/Path/PathStep.h"
 
 namespace rt::probe {
@@ -38,29 +38,16 @@ Hit ArrivingLight::closest(const Ray& ray) const {
     return hit;
 }
 
-// Behind layers that it goes through; `number` as for goesThrough().
-Hit ArrivingLight::nextHit(const Ray& ray, const Sampler& sampler, std::uint32_t number, float end) const {
-    Hit hit;
-    accel::rayQuery().closest(scene_->accel(), &ray, &end, &hit, 1);
-    if (!has(features_, kFeatureOpacity)) return hit;
-    LayeredRay layered = beforeLayers(ray);
-    while (goesThrough(features_, scene_->view(), sampler, number, hit, layered)) {
-        const float left = end - layered.from;
-        accel::rayQuery().closest(scene_->accel(), &layered.ray, &left, &hit, 1);
-    }
-    if (hit.t >= 0.0f) hit.t += layered.from;
-    return hit;
-}
-
 shared::vec3 ArrivingLight::trace(const Ray& ray, const Sampler& sampler) const {
     PathState path = startPath(ray);
     TechniqueStep step = beginTechniqueStep();
     for (bool goesOn = true; goesOn;) {
-        const Hit hit = nextHit(path.ray, sampler, 2u * path.vertex, kInfinity);
+        const Hit hit = nextHit(*scene_, features_, path.ray, sampler, 2u * path.vertex, kInfinity);
         DirectLight direct = noDirectLight();
         goesOn = stepPath(features_, scene_->view(), params_, sampler, hit, path, direct, step);
         if (!(direct.distance > 0.0f)) continue;
-        const Hit occluder = nextHit(shadowRay(path, direct), sampler, 2u * path.vertex + 1u, direct.distance);
+        const Hit occluder =
+            nextHit(*scene_, features_, shadowRay(path, direct), sampler, 2u * path.vertex + 1u, direct.distance);
         if (occluder.t < 0.0f) addDirectLight(features_, scene_->view(), direct, path);
     }
     return path.radiance;

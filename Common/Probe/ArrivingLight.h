@@ -16,8 +16,6 @@ class ArrivingLight {
     shared::Hit closest(const shared::Ray& ray) const;
 
   private:
-    shared::Hit nextHit(const shared::Ray& ray, const shared::Sampler& sampler, std::uint32_t number, float end) const;
-
     const SceneFormulas* scene_;
     shared::RenderParams params_;
     shared::Features features_;

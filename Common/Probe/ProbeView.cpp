@@ -62,29 +62,12 @@ ProbeSaved saveWish(const std::string& file, ProbeWish wish, const std::atomic<b
 
 } // namespace
 
-ProbeView::ProbeView(std::function<void()> onChange) : onChange_(std::move(onChange)), thread_([this] { run(); }) {}
+ProbeView::ProbeView(std::function<void()> onChange)
+    : onChange_(std::move(onChange)), wishes_([this](const ProbeWish* wish) { work(wish); }, onChange_) {}
 
 ProbeView::~ProbeView() {
-    {
-        const std::scoped_lock lock(mutex_);
-        isEnding_ = true;
-        isStale_ = isSceneStale_ = isGivenUp_ = true;
-    }
-    wake_.notify_all();
-    thread_.join();
+    isGivenUp_ = true;
     if (saving_.valid()) saving_.wait();
-}
-
-void ProbeView::wish(std::optional<ProbeWish> wish) {
-    {
-        const std::scoped_lock lock(mutex_);
-        if (wish == wish_) return;
-        isSceneStale_ = isSceneStale_ || !wish || !wish_ || wish->scene != wish_->scene;
-        isStale_ = isNew_ = true;
-        wish_ = std::move(wish);
-        if (!wish_) state_.reset();
-    }
-    wake_.notify_all();
 }
 
 void ProbeView::save(const std::string& file, const ProbeWish& wish) {
@@ -101,32 +84,16 @@ std::optional<ProbeSaved> ProbeView::takeSaved() {
     return saving_.get();
 }
 
-std::shared_ptr<const ProbeState> ProbeView::state() const {
-    const std::scoped_lock lock(mutex_);
-    return state_;
-}
-
-void ProbeView::run() {
-    for (;;) {
-        std::optional<ProbeWish> wish;
-        {
-            std::unique_lock lock(mutex_);
-            wake_.wait(lock, [this] { return isNew_ || isEnding_; });
-            if (isEnding_) return;
-            wish = wish_;
-            isNew_ = false;
-            isStale_ = isSceneStale_ = false;
-        }
-        if (!wish) {
-            formulas_.reset(); // with its acceleration structure
-            continue;
-        }
-        try {
-            answer(*wish);
-        } catch (const std::exception& error) {
-            formulas_.reset();
-            publish(*wish, messageOf(error), {});
-        }
+void ProbeView::work(const ProbeWish* wish) {
+    if (wish == nullptr) {
+        formulas_.reset(); // with its acceleration structure
+        return;
+    }
+    try {
+        answer(*wish);
+    } catch (const std::exception& error) {
+        formulas_.reset();
+        wishes_.publish(*wish, messageOf(error), {});
     }
 }
 
@@ -140,31 +107,21 @@ void ProbeView::provide(const ProbeWish& wish) {
 
 void ProbeView::answer(const ProbeWish& wish) {
     provide(wish);
-    if (!formulas_->prepare(isSceneStale_)) return;
+    if (!formulas_->prepare(wishes_.isSceneStale())) return;
     const std::optional<Probe> probe = placeOf(wish, *formulas_);
     if (std::string why = whyNothingAt(probe, wish.settings.strategy); !why.empty())
-        return publish(wish, std::move(why), {});
+        return wishes_.publish(wish, std::move(why), {});
     ProbeRun work(*probe, wish.settings);
     app::Stopwatch sincePublished;
     for (bool isFirst = true; !work.isDone();) {
-        if (isStale_ && work.hasFirst() && !isFirst) return;
+        if (wishes_.isStale() && work.hasFirst() && !isFirst) return;
         work.advance();
         const bool isDue = isFirst ? work.hasFirst() : sincePublished.seconds() > kPublishSeconds;
         if (!isDue && !work.isDone()) continue;
         isFirst = false;
-        publish(wish, "", work.result());
+        wishes_.publish(wish, "", work.result());
         sincePublished = {};
     }
-}
-
-void ProbeView::publish(const ProbeWish& wish, std::string whyNot, ProbeResult result) {
-    auto state = std::make_shared<ProbeState>(ProbeState{wish, std::move(whyNot), std::move(result), ++serial_});
-    {
-        const std::scoped_lock lock(mutex_);
-        if (!wish_) return; // nobody looks any more
-        state_ = std::move(state);
-    }
-    onChange_();
 }
 
 } // namespace rt::probe

@@ -2,16 +2,15 @@
 #pragma once
 #include <array>
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <future>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
+#include <utility>
 
+#include "Common/Probe/NewestWish.h"
 #include "Common/Probe/ProbeRun.h"
 #include "Common/Render/Settings.h"
 
@@ -26,12 +25,7 @@ struct ProbeWish {
     bool operator==(const ProbeWish&) const = default;
 };
 
-struct ProbeState {
-    ProbeWish wish;     // that this is the answer to
-    std::string whyNot; // there is nothing to show; empty: there is
-    ProbeResult result; // so far
-    std::uint64_t serial = 0;
-};
+using ProbeState = Answer<ProbeWish, ProbeResult>;
 
 // Of a picture that was to be written.
 struct ProbeSaved {
@@ -49,34 +43,25 @@ class ProbeView {
 
     // What was wished before is given up, but not before its first samples and map are there: a point that is dragged
     // is followed. Nothing: nothing is to be worked on. The same wish once more changes nothing.
-    void wish(std::optional<ProbeWish> wish);
+    void wish(std::optional<ProbeWish> wish) { wishes_.wish(std::move(wish)); }
     // Works out all of the wish, on another thread, and writes picture and figures as ray-tracing-image probe does: the
     // picture to `file`, the figures beside it as .json. One at a time.
     void save(const std::string& file, const ProbeWish& wish);
     bool isSaving() const { return saving_.valid(); }
     std::optional<ProbeSaved> takeSaved(); // once
 
-    std::shared_ptr<const ProbeState> state() const; // null: none yet
+    std::shared_ptr<const ProbeState> state() const { return wishes_.state(); } // null: none yet
 
   private:
-    void run();
+    void work(const ProbeWish* wish);
     void answer(const ProbeWish& wish);
     void provide(const ProbeWish& wish);
-    void publish(const ProbeWish& wish, std::string whyNot, ProbeResult result);
 
     const std::function<void()> onChange_;
-    mutable std::mutex mutex_; // guards what follows
-    std::condition_variable wake_;
-    std::optional<ProbeWish> wish_;
-    bool isNew_ = false, isEnding_ = false; // wish_ has not been begun
-    std::shared_ptr<const ProbeState> state_;
-
-    std::atomic<bool> isStale_{false}, isSceneStale_{false}; // what is being worked on
-    std::shared_ptr<const SceneFormulas> formulas_;          // of the thread, for the last wish
-    std::uint64_t serial_ = 0;                               // of the thread
-    std::atomic<bool> isGivenUp_{false};                     // what is being saved
+    std::shared_ptr<const SceneFormulas> formulas_; // of the thread, for the last wish
+    std::atomic<bool> isGivenUp_{false};            // what is being saved
     std::future<ProbeSaved> saving_;
-    std::thread thread_; // last: it uses the others
+    NewestWish<ProbeWish, ProbeResult> wishes_; // last: its thread uses the others
 };
 
 } // namespace rt::probe

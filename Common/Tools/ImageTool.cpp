@@ -20,6 +20,7 @@
 #include "Common/Image/Metrics.h"
 #include "Common/Render/Names.h"
 #include "Common/Tools/Image/ImageArguments.h"
+#include "Common/Tools/Image/PathsCommand.h"
 #include "Common/Tools/Image/ProbeCommand.h"
 
 namespace {
@@ -127,6 +128,10 @@ int run(const std::vector<std::string>& line) {
     if (arguments->command == "merge") return merge(*arguments);
     if (arguments->command == "probe") {
         tools::runProbe(*arguments, std::cout);
+        return static_cast<int>(ExitCode::Done);
+    }
+    if (arguments->command == "paths") {
+        tools::runPaths(*arguments, std::cout);
         return static_cast<int>(ExitCode::Done);
     }
     return arguments->command == "info" ? info(*arguments) : convert(*arguments);

@@ -151,7 +151,7 @@ TEST_F(ImageTool, HelpAndVersion) {
 }
 
 TEST_F(ImageTool, WrongUseExitsWith2) {
-    EXPECT_TRUE(failsWith(tool({}), 2, "diff, info, convert, denoise, merge or probe"));
+    EXPECT_TRUE(failsWith(tool({}), 2, "diff, info, convert, denoise, merge, probe or paths"));
     EXPECT_TRUE(failsWith(tool({"paint"}), 2, "paint"));
     EXPECT_TRUE(failsWith(tool({"diff", "reference.exr"}), 2, "B"));
     EXPECT_TRUE(failsWith(tool({"diff", "small.exr", "small.exr", "--metric", "ssim"}), 2, "mse"));

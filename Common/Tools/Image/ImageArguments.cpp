@@ -29,16 +29,32 @@ std::string alternativesOf(const Row (&table)[N]) {
     return text;
 }
 
-// A value that must be the name of a row.
 template <class Row, std::size_t N>
-void addName(CLI::App& app, const std::string& flag, std::string& target, const Row (&table)[N],
-             const std::string& help) {
+CLI::Validator isNameIn(const Row (&table)[N]) {
     const auto check = [&table](const std::string& name) {
         const auto isNamed = [&name](const Row& row) { return row.name == name; };
         const bool found = std::any_of(std::begin(table), std::end(table), isNamed);
         return found ? std::string() : name + ": must be among " + alternativesOf(table);
     };
-    app.add_option(flag, target, help)->check(CLI::Validator(check, ""))->type_name(alternativesOf(table));
+    return CLI::Validator(check, "");
+}
+
+// A value that must be the name of a row.
+template <class Row, std::size_t N>
+void addName(CLI::App& app, const std::string& flag, std::string& target, const Row (&table)[N],
+             const std::string& help) {
+    app.add_option(flag, target, help)->check(isNameIn(table))->type_name(alternativesOf(table));
+}
+
+// Likewise; `target` becomes the row's value.
+template <class E, std::size_t N>
+void addChoice(CLI::App& app, const std::string& flag, E& target, const app::Named<E> (&table)[N],
+               const std::string& help) {
+    const auto set = [&table, &target](const std::string& name) {
+        for (const auto& row : table)
+            if (row.name == name) target = row.value;
+    };
+    app.add_option_function<std::string>(flag, set, help)->check(isNameIn(table))->type_name(alternativesOf(table));
 }
 
 void addFile(CLI::App& app, const std::string& name, std::string& target, const char* type, const std::string& help,
@@ -103,13 +119,23 @@ CLI::Option& addWhole(CLI::App& app, const std::string& flag, std::uint32_t& tar
     return *app.add_option(flag, target, help)->check(CLI::Validator(check, ""))->type_name("N");
 }
 
-// How the scene is seen, and how its lights are sampled: as the flags of the programs.
-void addProbeSettings(CLI::App& probe, ProbeArguments& arguments) {
-    probe.add_option("--camera", arguments.camera, "pose as JSON, or the name of one of the scene's cameras")
+// How the scene is seen: as the flags of the programs.
+void addView(CLI::App& app, PixelArguments& arguments) {
+    app.add_option("--camera", arguments.camera, "pose as JSON, or the name of one of the scene's cameras")
         ->type_name("POSE");
-    addWhole(probe, "--width", arguments.width, 1, image::kMaxImageSide, "of the image that the pixel is of")
+    addWhole(app, "--width", arguments.width, 1, image::kMaxImageSide, "of the image that the pixel is of")
         .default_str("600");
-    addWhole(probe, "--height", arguments.height, 1, image::kMaxImageSide, "likewise; by the scene's aspect");
+    addWhole(app, "--height", arguments.height, 1, image::kMaxImageSide, "likewise; by the scene's aspect");
+}
+
+void addPixel(CLI::App& app, PixelArguments& arguments) {
+    addFile(app, "SCENE", arguments.scene, "SCENE", "the scene, as --scene of the programs takes it", true);
+    addFile(app, "PIXEL", arguments.pixel, "X,Y", "from the image's upper left, 0,0", true);
+}
+
+// And how its lights are sampled.
+void addProbeSettings(CLI::App& probe, ProbeArguments& arguments) {
+    addView(probe, arguments);
     addName(probe, "--light-selection", arguments.lightSelection, app::kLightSelections, "how a light is chosen");
     addName(probe, "--sphere-light", arguments.sphereLight, app::kSphereLights, "where a sphere is sampled");
     addName(probe, "--quad-light", arguments.quadLight, app::kFlatLights, "where a quad, disk or cylinder is");
@@ -124,8 +150,7 @@ void addProbe(CLI::App& app, ImageArguments& arguments) {
         "Show what light sampling does at the surface that a pixel shows: the density of a strategy over all "
         "directions and over the hemisphere, samples, a chi-square test, the variance of each strategy");
     ProbeArguments& values = arguments.probe;
-    addFile(probe, "SCENE", values.scene, "SCENE", "the scene, as --scene of the programs takes it", true);
-    addFile(probe, "PIXEL", values.pixel, "X,Y", "from the image's upper left, 0,0", true);
+    addPixel(probe, values);
     addFile(probe, "--strategy", values.strategy, "bsdf|lights|mixture|mis|N",
             "lights: one is chosen and its shape sampled; mixture: half of either; mis: one sample of each; or the "
             "index of a light, whose shape alone is sampled",
@@ -147,6 +172,34 @@ void addProbe(CLI::App& app, ImageArguments& arguments) {
     addWhole(probe, "--seed", values.seed, 0, kMaxSeed, "the same seed draws the same samples").capture_default_str();
 }
 
+void addPaths(CLI::App& app, ImageArguments& arguments) {
+    constexpr std::uint32_t kMaxSamples = 1u << 20, kMaxListed = 4096, kMaxDepth = 4096, kMaxReplicates = 1024;
+    constexpr std::uint32_t kMaxSeed = 0xffffffff;
+    CLI::App& paths = *app.add_subcommand(
+        "paths",
+        "Tell why a pixel is noisy: its samples, traced again as the programs trace them, their variance by how light "
+        "was found and after how many bounces, the brightest paths");
+    PathsArguments& values = arguments.paths;
+    app::RenderSettings& settings = values.settings;
+    addPixel(paths, values);
+    addFile(paths, "--output,-o", arguments.output, kWritable,
+            "a strip with a bar for each sample, in order, in the colour of what brought most of it", false);
+    paths.add_flag("--json", values.json, "print the figures as JSON, with the lines of paths");
+    addView(paths, values);
+    addWhole(paths, "--spp", settings.spp, 1, kMaxSamples, "samples per pixel of the render, all of which are traced")
+        .capture_default_str();
+    addWhole(paths, "--sample", values.sample, 0, kMaxSamples, "list all paths of this one");
+    addWhole(paths, "--list", values.listed, 1, kMaxListed, "so many paths, the brightest ones").capture_default_str();
+    addWhole(paths, "--max-depth", settings.maxDepth, 1, kMaxDepth, "path vertices after the camera")
+        .capture_default_str();
+    addWhole(paths, "--seed", settings.seed, 0, kMaxSeed, "as that of the render").capture_default_str();
+    addWhole(paths, "--replicates", settings.replicates, 1, kMaxReplicates, "likewise").capture_default_str();
+    app::forEachMethod([&paths](const char* key, const char*, const char* help, const auto& table,
+                                auto& value) { addChoice(paths, app::flagOf(key), value, table, help); },
+                       settings);
+    addChoice(paths, "--russian-roulette", settings.russianRoulette, app::kOnOff, "end dim paths early");
+}
+
 void addCommands(CLI::App& app, ImageArguments& arguments) {
     app.set_help_flag("--help,-h", "print the flags and exit");
     addDiff(app, arguments);
@@ -155,6 +208,7 @@ void addCommands(CLI::App& app, ImageArguments& arguments) {
     addMerge(app, arguments);
     addDenoise(app, arguments);
     addProbe(app, arguments);
+    addPaths(app, arguments);
     app.set_help_all_flag("--help-all", "print every flag of every command and exit"); // which commands do not have
     app.set_version_flag("--version", versionText(kImageTool),
                          "print version, commit, features and compilers and exit");
@@ -163,15 +217,17 @@ void addCommands(CLI::App& app, ImageArguments& arguments) {
 
 constexpr const char* kDescription =
     "Compares, describes and converts images: .png .exr .hdr .pfm, and to read .jpg .bmp .tga .tif .webp. Shows how "
-    "lights are sampled at a point of a scene.";
+    "lights are sampled at a point of a scene, and why a pixel is noisy.";
 
 manual::Page pageOfCommands(const CLI::App& app) {
     manual::Page page = manual::pageOf(app);
-    page.examples = {{"ray-tracing-image info spheres.png", "Tell how a picture was rendered."},
-                     {"ray-tracing-image diff a.exr b.exr --metric relmse --max 0.01",
-                      "Exit with 5 where a.exr is further from b.exr than that."},
-                     {"ray-tracing-image probe veach-mis 300,400 --strategy mis -o probe.png",
-                      "Show which directions MIS samples at a pixel's surface."}};
+    page.examples = {
+        {"ray-tracing-image info spheres.png", "Tell how a picture was rendered."},
+        {"ray-tracing-image diff a.exr b.exr --metric relmse --max 0.01",
+         "Exit with 5 where a.exr is further from b.exr than that."},
+        {"ray-tracing-image probe veach-mis 300,400 --strategy mis -o probe.png",
+         "Show which directions MIS samples at a pixel's surface."},
+        {"ray-tracing-image paths cornell-box-lights 300,420 --spp 256", "Tell what makes the noise of a pixel."}};
     return page;
 }
 
@@ -190,7 +246,7 @@ std::optional<ImageArguments> parseImageArguments(const std::vector<std::string>
     addCommands(app, parsed);
     if (!manual::parse(app, arguments, out, [&] { return pageOfCommands(app); })) return std::nullopt;
     if (app.get_subcommands().empty())
-        throw UsageError("a subcommand is required: diff, info, convert, denoise, merge or probe");
+        throw UsageError("a subcommand is required: diff, info, convert, denoise, merge, probe or paths");
     parsed.command = app.get_subcommands().front()->get_name();
     return parsed;
 }

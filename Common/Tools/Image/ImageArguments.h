@@ -9,6 +9,7 @@
 #include "Common/Image/Flip.h"
 #include "Common/Image/Metrics.h"
 #include "Common/Manual/Page.h"
+#include "Common/Render/Settings.h"
 
 namespace rt::tools {
 
@@ -36,13 +37,17 @@ inline constexpr Metric kMetrics[] = {
     {"psnr", [](const Difference& d) { return d.figures.psnr; }, true},
     {"flip", [](const Difference& d) { return image::flip(d.image, d.reference); }, false}};
 
-// Of `probe`.
-struct ProbeArguments {
+// A pixel of a scene's image.
+struct PixelArguments {
     std::string scene, pixel;
-    std::string strategy = "lights";
     std::string camera;
     std::uint32_t width = 0, height = 0; // of the image that the pixel is of; 0: as the programs' flags
-    std::string show, sampler;           // empty: by default
+};
+
+// Of `probe`.
+struct ProbeArguments : PixelArguments {
+    std::string strategy = "lights";
+    std::string show, sampler; // empty: by default
     std::uint32_t rows = 128, samples = 4096, paths = 16;
     std::uint32_t strata = 0; // 0: edges are not drawn
     std::uint32_t seed = 0;
@@ -50,10 +55,21 @@ struct ProbeArguments {
     std::string sphereLight, quadLight, triangleLight, lightSelection; // empty: by default
 };
 
+// Of `paths`.
+struct PathsArguments : PixelArguments {
+    app::RenderSettings settings;
+    std::uint32_t sample = kNoSample; // of which all paths are wanted
+    std::uint32_t listed = 16;
+    bool json = false;
+
+    static constexpr std::uint32_t kNoSample = ~0u;
+};
+
 struct ImageArguments {
-    std::string command; // "diff", "info", "convert", "merge", "denoise" or "probe"
+    std::string command; // "diff", "info", "convert", "merge", "denoise", "probe" or "paths"
     std::string a, b;
     ProbeArguments probe;
+    PathsArguments paths;
     std::string metric; // empty: all
     std::optional<double> max;
     std::string output;

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <system_error>
-#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -32,29 +31,13 @@ E named(const app::Named<E> (&table)[N], const std::string& name, E otherwise) {
 
 app::Options optionsOf(const ProbeArguments& arguments) {
     app::Options options;
-    options.program = kImageTool;
-    options.scene = arguments.scene;
-    options.camera = arguments.camera;
-    if (arguments.width != 0) options.size.width = arguments.width;
-    if (arguments.height != 0) options.size.height = arguments.height;
+    applyPixel(arguments, options);
     app::RenderSettings& settings = options.settings;
     settings.sphereLight = named(app::kSphereLights, arguments.sphereLight, settings.sphereLight);
     settings.quadLight = named(app::kFlatLights, arguments.quadLight, settings.quadLight);
     settings.triangleLight = named(app::kFlatLights, arguments.triangleLight, settings.triangleLight);
     settings.lightSelection = named(app::kLightSelections, arguments.lightSelection, settings.lightSelection);
     return options;
-}
-
-std::pair<std::uint32_t, std::uint32_t> pixelOf(const std::string& text, const app::RenderSettings& settings) {
-    std::uint32_t x = 0, y = 0;
-    const char* const end = text.data() + text.size();
-    const auto first = std::from_chars(text.data(), end, x);
-    const bool hasComma = first.ec == std::errc() && first.ptr != end && *first.ptr == ',';
-    const auto second = hasComma ? std::from_chars(first.ptr + 1, end, y) : first;
-    if (!hasComma || second.ec != std::errc() || second.ptr != end || x >= settings.width || y >= settings.height)
-        throw UsageError(text + ": must be a pixel X,Y from 0,0 to " + std::to_string(settings.width - 1) + "," +
-                         std::to_string(settings.height - 1));
-    return {x, y};
 }
 
 probe::ProbeSettings settingsOf(const ProbeArguments& asked, const probe::Strategy& strategy) {
@@ -89,6 +72,26 @@ void printLines(const Json& figures, const std::string& prefix, std::ostream& ou
 }
 
 } // namespace
+
+void applyPixel(const PixelArguments& arguments, app::Options& options) {
+    options.program = kImageTool;
+    options.scene = arguments.scene;
+    options.camera = arguments.camera;
+    if (arguments.width != 0) options.size.width = arguments.width;
+    if (arguments.height != 0) options.size.height = arguments.height;
+}
+
+std::array<std::uint32_t, 2> pixelOf(const std::string& text, const app::RenderSettings& settings) {
+    std::uint32_t x = 0, y = 0;
+    const char* const end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, x);
+    const bool hasComma = first.ec == std::errc() && first.ptr != end && *first.ptr == ',';
+    const auto second = hasComma ? std::from_chars(first.ptr + 1, end, y) : first;
+    if (!hasComma || second.ec != std::errc() || second.ptr != end || x >= settings.width || y >= settings.height)
+        throw UsageError(text + ": must be a pixel X,Y from 0,0 to " + std::to_string(settings.width - 1) + "," +
+                         std::to_string(settings.height - 1));
+    return {x, y};
+}
 
 void runProbe(const ImageArguments& arguments, std::ostream& out) {
     const ProbeArguments& asked = arguments.probe;
