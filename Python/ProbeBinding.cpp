@@ -1,4 +1,4 @@
-// Maps of densities and light over the sphere of directions.
+// Maps of densities and light over the sphere of directions; the paths of a pixel.
 #include <cstdint>
 #include <optional>
 #include <pybind11/pybind11.h>
@@ -6,6 +6,7 @@
 #include <string>
 
 #include "Common/Probe/DirectionMap.h"
+#include "Common/Probe/PathsReport.h"
 #include "Python/Arrays.h"
 #include "Python/Bindings.h"
 #include "Python/Scene.h"
@@ -60,10 +61,23 @@ py::tuple probeMap(const Scene& scene, std::uint32_t x, std::uint32_t y, const s
     return py::make_tuple(values.array, place.array);
 }
 
+// What ray-tracing-image paths --json prints.
+std::string pixelPaths(const Scene& scene, std::uint32_t x, std::uint32_t y, std::uint32_t samples,
+                       std::optional<std::uint32_t> selected) {
+    const py::gil_scoped_release released;
+    probe::PathsSettings settings;
+    settings.samples = samples;
+    settings.selected = selected;
+    probe::PathsRun run(scene, scene.compiled()->camera, x, y, settings);
+    while (!run.isDone()) run.advance();
+    return probe::figuresOf(run.result(), {scene.compiled()->id, {x, y}, scene.options().settings}).dump();
+}
+
 } // namespace
 
 void bindProbe(py::module_& module) {
     module.def("probe_map", &probeMap);
+    module.def("pixel_paths", &pixelPaths);
 }
 
 } // namespace rt::python

@@ -68,6 +68,7 @@ class App {
                options.assetsBelow,
                editor_,
                probe_,
+               paths_,
                probeImage_} {
         gui_.showFirstSteps = !std::exchange(settings_.sawFirstSteps, true);
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
@@ -106,6 +107,7 @@ class App {
     app::SceneEditor editor_{session_, options_.assetsBelow};
     app::OtherEngine other_{history_, [this] { isNews_ = true; }};
     probe::ProbeView probe_{[this] { isNews_ = true; }};
+    probe::PathsView paths_{[this] { isNews_ = true; }};
     Gui gui_;
     PictureArea picture_{gui_};
     SessionLink link_{options_, gui_, presenter_};
@@ -284,6 +286,7 @@ void App::drawFrame(bool isShown) {
     followEditing(gui_);
     followMaterials(gui_);
     followSampler(gui_);
+    followNoisyPixel(gui_);
     drawInterface();
     flying_ = fly(gui_, input_, seconds);
     gui_.isHeld = flying_ || ImGui::IsAnyMouseDown() || gui_.editing.tool;
@@ -328,6 +331,7 @@ void App::drawInterface() {
     drawSelection(gui_, picture_.imageRect(), area);
     drawTools(gui_, picture_.imageRect(), area);
     drawSampledPoint(gui_, picture_.imageRect(), area);
+    drawNoisyPixel(gui_, picture_.imageRect(), area);
     drawViewLegend(gui_, area, scale);
     drawChips(gui_, area, picture_.imageRect(), scale);
     drawOverlay(gui_, area, scale);

@@ -19,6 +19,7 @@
 #include "Common/Gui/Inspector.h"
 #include "Common/Gui/Layout.h"
 #include "Common/Gui/MaterialTools.h"
+#include "Common/Gui/NoisyPixel.h"
 #include "Common/Gui/PanelImage.h"
 #include "Common/Gui/PinnedView.h"
 #include "Common/Gui/RunBoard.h"
@@ -26,6 +27,7 @@
 #include "Common/Gui/SceneEditing.h"
 #include "Common/Gui/Thumbnails.h"
 #include "Common/Gui/Window.h"
+#include "Common/Probe/PathsView.h"
 #include "Common/Probe/ProbeView.h"
 
 namespace rt::gui {
@@ -67,12 +69,14 @@ struct Gui {
     const std::string assetsBelow; // as --assets-below says
     app::SceneEditor& editor;
     probe::ProbeView& probe;
+    probe::PathsView& paths;
     PanelImage& probeImage;
 
     app::SessionState state; // of this frame
     SceneEditing editing;
     MaterialTools materials;
     SamplerView sampling;
+    NoisyPixel noise;
     Rect shownImage; // the whole picture's, in the window's units
     PictureView view;
     app::ViewRequest viewRequest;

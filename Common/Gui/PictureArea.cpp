@@ -188,7 +188,8 @@ void PictureArea::handlePointer() {
     inspect(pixel);
     takeMaterial();
     const bool isPicking = gui_.materials.isPicking; // the click is for the pipette
-    if (!gui_.editing.tool && !isPicking && holdSampledPoint(gui_, inside, pixel)) {
+    const bool mayHold = !gui_.editing.tool && !isPicking;
+    if (mayHold && (holdSampledPoint(gui_, inside, pixel) || holdNoisyPixel(gui_, inside, pixel))) {
         dragging_ = false; // what moves the point does not orbit
         return;
     }

@@ -1,33 +1,19 @@
-// The point of the picture at which the panel Sampler shows what is sampled: how it is picked, marked and dragged.
+// The point of the picture at which the panel Sampler shows what is sampled.
 #pragma once
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string>
 
-#include "Common/Gui/Layout.h"
+#include "Common/Gui/PointPicker.h"
 #include "Common/Probe/ProbeView.h"
 
 namespace rt::gui {
-
-struct Gui;
 
 // What the panel shows its samples on.
 enum class SampleSpace { Sphere, Hemisphere, UnitSquare };
 
 // What the window keeps of it between frames.
-struct SamplerView {
-    // A pixel, and where it was seen from: the direction to the camera is part of the question, so that the answer
-    // stays while the camera moves.
-    struct Point {
-        scene::CameraDesc camera;
-        std::array<std::uint32_t, 2> pixel{}, size{};
-        std::string source; // of the scene
-    };
-    std::optional<Point> point;
-    bool isPicking = false; // the next click in the picture tells
-    bool isDragged = false;
-    bool isShown = false; // the panel, in this frame
+struct SamplerView : PointPicker {
     probe::ProbeSettings settings;
     SampleSpace space = SampleSpace::Sphere;
     bool showsSamples = true;
@@ -37,7 +23,7 @@ struct SamplerView {
 };
 
 // What is asked of the point, in the scene and by the settings of the picture. Requires both.
-probe::ProbeWish wishAt(const Gui& gui, const SamplerView::Point& point);
+probe::ProbeWish wishAt(const Gui& gui, const PickedPixel& point);
 
 // Each frame, before anything is drawn: without its panel nothing is worked out.
 void followSampler(Gui& gui);

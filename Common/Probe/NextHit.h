@@ -7,7 +7,8 @@
 
 namespace rt::probe {
 
-// In (0, end), behind layers that it goes through; `number` as for goesThrough(). The distance is from the ray's origin.
+// In (0, end), behind layers that it goes through; `number` as for goesThrough(). The distance is from where the ray
+// begins.
 shared::Hit nextHit(const SceneFormulas& scene, shared::Features features, const shared::Ray& ray,
                     const shared::Sampler& sampler, std::uint32_t number, float end);
 

@@ -34,7 +34,7 @@ inline constexpr app::Named<Technique> kTechniques[] = {
 struct TechniqueColor {
     std::uint8_t r, g, b;
 };
-inline constexpr TechniqueColor kTechniqueColors[] = {{235, 235, 235}, {80, 160, 255}, {60, 200, 190},
+inline constexpr TechniqueColor kTechniqueColors[] = {{150, 150, 165}, {80, 160, 255}, {60, 200, 190},
                                                       {255, 80, 90},   {255, 170, 40}, {255, 120, 220},
                                                       {170, 230, 80},  {170, 120, 255}};
 inline TechniqueColor colorOf(Technique technique) {

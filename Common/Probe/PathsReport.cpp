@@ -31,10 +31,6 @@ std::string bouncesText(std::uint32_t bounces) {
     return "after " + std::to_string(bounces) + (bounces == kPooledBounces ? " bounces or more" : " bounces");
 }
 
-std::string shareText(double share) {
-    return formatted("%.*f %%", std::abs(share) < 0.1 ? 1 : 0, 100 * share);
-}
-
 // What is off, and would find this light otherwise.
 std::string remedyFor(const NoiseShare& most, const app::RenderSettings& rendering) {
     const bool aims =
@@ -144,6 +140,11 @@ std::vector<std::string> notesOf(const PathsResult& result, const app::RenderSet
     if (result.dropped > 0)
         notes.push_back(std::to_string(result.dropped) + " samples are not finite and are dropped.");
     return notes;
+}
+
+std::string shareText(double share) {
+    const bool isZero = std::abs(share) < 0.0005; // has no sign
+    return formatted("%.*f %%", std::abs(share) < 0.1 ? 1 : 0, isZero ? 0.0 : 100 * share);
 }
 
 std::string textOf(const FoundLight& found) {

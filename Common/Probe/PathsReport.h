@@ -24,6 +24,7 @@ std::string adviceOf(const PathsResult& result, const app::RenderSettings& rende
 // What is to be known of the figures.
 std::vector<std::string> notesOf(const PathsResult& result, const app::RenderSettings& rendering);
 
+std::string shareText(double share);         // "82 %"
 std::string textOf(const FoundLight& found); // "BSDF sampling after 2 bounces"
 nlohmann::ordered_json figuresOf(const PathsResult& result, const PathsPlace& place);
 std::string textOf(const PathsResult& result, const PathsPlace& place); // with line breaks

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -37,15 +36,15 @@ struct NoiseShare {
 
 struct PathsResult {
     PathsSettings settings;
-    std::vector<float> samples;       // their luminance, in order; of one that is dropped not a number
-    std::vector<Technique> dominant;  // of each sample: what brought most of it
-    std::uint32_t dropped = 0;        // as not finite: as the film does
-    glm::dvec3 radiance{};            // mean
-    double mean = 0;                  // of the luminance
-    double variance = 0;              // of a sample
-    std::vector<NoiseShare> shares;   // by technique and bounces, the greatest first
-    std::vector<ListedPath> listed;   // the brightest first
-    std::vector<ListedPath> selected; // of the sample that is selected
+    std::vector<float> samples;           // their luminance, in order; of one that is dropped not a number
+    std::vector<Technique> dominant;      // of each sample: what brought most of it
+    std::uint32_t dropped = 0;            // as not finite: as the film does
+    glm::dvec3 radiance{};                // mean
+    double mean = 0;                      // of the luminance
+    double variance = 0;                  // of a sample
+    std::vector<NoiseShare> shares;       // by technique and bounces, the greatest first
+    std::vector<ListedPath> listed;       // the brightest first
+    std::vector<ListedPath> selected;     // of the sample that is selected
     std::optional<shared::vec3> position; // that the pixel shows
     bool sharesPaths = false;
     bool isDone = false;
@@ -55,7 +54,7 @@ struct PathsResult {
     std::pair<std::uint32_t, double> worst() const;
 };
 
-inline constexpr std::uint32_t kPooledBounces = 16; // so many, or more
+inline constexpr std::uint32_t kPooledBounces = 8; // so many, or more
 
 // Of the result's shares, summed; the greatest first, bounces from 0 on.
 std::vector<NoiseShare> sharesByTechnique(const PathsResult& result);

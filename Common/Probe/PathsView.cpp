@@ -48,8 +48,9 @@ std::vector<PathLine> linesSeenFrom(const SceneFormulas& scene, const glm::dvec3
             for (std::size_t k = 0; k < kPieces; ++k) {
                 const auto at = [&](float place) { return begin + way * (place / float{kPieces}); };
                 const auto first = static_cast<float>(k);
+                const shared::vec3 end = k + 1 < kPieces ? at(first + 1) : points[i + 1].position;
                 const bool isHidden = isHiddenFrom(scene, from, scene.toScene(at(first + 0.5f)));
-                lines.back().pieces.push_back({at(first), at(first + 1), isHidden});
+                lines.back().pieces.push_back({at(first), end, isHidden});
             }
         }
     }

@@ -20,7 +20,7 @@ from ._film import Aovs, Film, Progressive, progressive, render
 from ._flags import flags
 from ._images import (auto_exposure, build, devices, flip, flip_map, metrics, read_image, sample_spherical_triangle,
                       tonemap, triangle_solid_angle, write_image)
-from ._probe import Probe, probe
+from ._probe import Probe, pixel_paths, probe
 from ._scene import (DIMENSIONS, BsdfSamples, Compiled, Hits, LightSamples, Notice, Scene, light, load, material,
                      samples, scenes)
 
@@ -28,7 +28,7 @@ __version__: str = _core.version
 __all__ = [
     "DIMENSIONS", "Aovs", "BsdfSamples", "Compiled", "Error", "Film", "Hits", "InputError", "LightSamples",
     "NoDeviceError", "Notice", "Probe", "Progressive", "RenderError", "Scene", "UsageError", "auto_exposure", "build",
-    "devices", "flags", "flip", "flip_map", "light", "load", "material", "metrics", "probe", "progressive",
-    "read_image", "render", "sample_spherical_triangle", "samples", "scenes", "tonemap", "triangle_solid_angle",
-    "write_image",
+    "devices", "flags", "flip", "flip_map", "light", "load", "material", "metrics", "pixel_paths", "probe",
+    "progressive", "read_image", "render", "sample_spherical_triangle", "samples", "scenes", "tonemap",
+    "triangle_solid_angle", "write_image",
 ]

@@ -1,9 +1,10 @@
-"""What light sampling does at a point: densities and light over the sphere of directions."""
+"""What light sampling does at a point: densities and light over the sphere of directions; and why a pixel is noisy."""
 
 from __future__ import annotations
 
+import json
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -54,3 +55,15 @@ def probe(scene: Compiled, x: int, y: int, strategy: str | int = "lights", heigh
     scene.camera_rays(x, y)  # which raises where there is no such pixel
     values, place = _core.probe_map(scene._core, x, y, str(strategy), height, side, show, paths, seed)
     return Probe(values.reshape(height, 2 * height), cell_directions(height), *place)
+
+
+def pixel_paths(scene: Compiled, x: int, y: int, samples: int = 256, sample: int | None = None) -> dict[str, Any]:
+    """Why pixel x, y of scene.compile() is noisy, as `ray-tracing-image paths --json` tells: its samples, traced again as a
+    render with the flags that the scene was compiled for traces them, their variance by how light was found ("techniques")
+    and by bounces, and the brightest paths with densities, weights and lines; with `sample` all paths of that one, as
+    "selected".
+    """
+    if not (1 <= samples <= 1 << 20 and (sample is None or 0 <= sample < samples)):
+        raise ValueError(f"samples, sample: expected 1 to {1 << 20} samples and one of them; got {samples}, {sample}")
+    scene.camera_rays(x, y)  # which raises where there is no such pixel
+    return json.loads(_core.pixel_paths(scene._core, x, y, samples, sample))

@@ -117,5 +117,21 @@ class Probes(unittest.TestCase):
             rt.probe(self.scene, 20, 20, paths=0)
 
 
+class PixelPaths(unittest.TestCase):
+    def test_their_mean_is_the_pixel(self):
+        scene = rt.load(ROOM)
+        flags = {"width": 40, "spp": 32, "light_sampling": "bsdf", "seed": 3}
+        found = rt.pixel_paths(scene.compile(**flags), 20, 20, samples=32, sample=5)
+        pixel = rt.render(scene, **flags).image[20, 20]
+        np.testing.assert_allclose(found["radiance"], pixel, rtol=1e-5)
+        self.assertGreater(found["techniques"]["bsdf"]["share"], 0.9)
+        self.assertEqual(len(found["luminance"]), 32)
+        self.assertTrue(all(path["sample"] == 5 for path in found["selected"]))
+
+    def test_what_is_no_sample(self):
+        with self.assertRaisesRegex(ValueError, "^samples, sample: expected"):
+            rt.pixel_paths(rt.load(ROOM).compile(width=40), 20, 20, samples=8, sample=8)
+
+
 if __name__ == "__main__":
     unittest.main()

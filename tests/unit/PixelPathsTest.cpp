@@ -179,7 +179,8 @@ TEST(PathsRuns, BlameScatteringForATinyLampThatIsNotAimedAt) {
     const std::vector<NoiseShare> techniques = sharesByTechnique(result);
     EXPECT_EQ(techniques.front().technique, Technique::Scattering);
     EXPECT_GT(techniques.front().share, 0.99);
-    EXPECT_GT(sharesByBounces(result).at(1).share, 0.9);
+    ASSERT_EQ(sharesByBounces(result).front().bounces, 1u) << "the lamp is out of sight";
+    EXPECT_GT(sharesByBounces(result).front().share, 0.9);
     EXPECT_NE(adviceOf(result, settingsFor(app::LightSampling::Bsdf)).find("BSDF sampling after 1 bounce"),
               std::string::npos);
     // By MIS hardly anything is left of it.
@@ -189,7 +190,7 @@ TEST(PathsRuns, BlameScatteringForATinyLampThatIsNotAimedAt) {
 }
 
 TEST(PathsRuns, ListTheBrightestSampleFirst) {
-    const PathsResult result = resultOf(floorUnderLamp(0.05), settingsFor(app::LightSampling::Bsdf), {4000, 8, {}});
+    const PathsResult result = resultOf(floorUnderLamp(0.1), settingsFor(app::LightSampling::Bsdf), {4000, 8, {}});
     const auto brightest = std::ranges::max_element(result.samples) - result.samples.begin();
     ASSERT_GT(result.samples[static_cast<std::size_t>(brightest)], 0.0f);
     ASSERT_FALSE(result.listed.empty());
@@ -274,7 +275,7 @@ TEST(PathsViews, PathsBeginInTheirPixelAndAreHiddenBehindThings) {
 }
 
 TEST(PathsViews, AnswerWhatARunGives) {
-    const Compiled scene = floorUnderLamp(0.1);
+    const Compiled scene = floorUnderLamp(0.5);
     std::mutex mutex;
     std::condition_variable changed;
     PathsView view([&] {
@@ -314,7 +315,7 @@ TEST(PathsViews, AnswerWhatARunGives) {
 }
 
 TEST(PathsReports, SayTheSameAsFiguresAndAsText) {
-    const Compiled scene = floorUnderLamp(0.1);
+    const Compiled scene = floorUnderLamp(0.5);
     const app::RenderSettings settings = settingsFor(app::LightSampling::Bsdf);
     const PathsResult result = resultOf(scene, settings, {300, 4, {}});
     const PathsPlace place{"floor", {9, 11}, settings};

@@ -58,7 +58,7 @@ constexpr HelpLine kRight[] = {
     {"Wheel", "zoom"},
     {"Ctrl + right drag", "move"},
     {"F", "fit, or frame what is selected"},
-    {"Drag the cross", "the point of the panel Sampler"},
+    {"Drag the cross", "the point of Sampler or Pixel noise"},
     {nullptr, "Objects"},
     {"Click, Escape", "select, deselect"},
     {"Ctrl + click", "select besides, or no longer"},

@@ -21,6 +21,7 @@ namespace rt::gui {
     PANEL(Settings, "settings", "Settings", Side, false, settings.showPanels) \
     PANEL(Objects, "objects", "Objects", Side, false, settings.showPanels) \
     PANEL(Sampler, "sampler", "Sampler", Side, false, settings.showPanels) \
+    PANEL(Noise, "noise", "Pixel noise", Side, false, settings.showPanels) \
     PANEL(Comparison, "comparison", "Comparison", Bottom, true, settings.showComparison) \
     PANEL(Race, "race", "Race", Bottom, true, settings.showRace && !settings.showComparison)
 // clang-format on

@@ -149,7 +149,7 @@ void drawAnswer(Gui& gui, const probe::ProbeState& state) {
     drawVariances(result);
 }
 
-void savePoint(Gui& gui, const SamplerView::Point& point) {
+void savePoint(Gui& gui, const PickedPixel& point) {
     gui.probe.save(probePath(gui.settings.saveFolder, gui.state, point.pixel), wishAt(gui, point));
 }
 
@@ -160,9 +160,7 @@ void drawSamplerPanel(Gui& gui) {
     SamplerView& sampling = gui.sampling;
     sampling.isShown = true;
     const float space = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - space) / 2;
-    if (button(sampling.isPicking ? "Click in the picture" : "Pick a point",
-               "Then click in the picture; the point can be dragged there", true, width))
-        sampling.isPicking = !sampling.isPicking;
+    drawPickButton(sampling, "Pick a point", width);
     ImGui::SameLine(0, space);
     const Usable canSave{sampling.point && !gui.probe.isSaving(),
                          sampling.point ? "it is being saved" : "no point was picked yet"};
