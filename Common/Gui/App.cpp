@@ -23,6 +23,7 @@
 #include "Common/Gui/Shortcuts.h"
 #include "Common/Gui/Snapshot.h"
 #include "Common/Gui/UserFiles.h"
+#include "Common/Gui/Viewports.h"
 #include "Common/Image/ImageIo.h"
 #include "Common/Render/Stopwatch.h"
 #include "Common/Vulkan/Instance.h"
@@ -87,6 +88,7 @@ class App {
     void savePart(const std::function<void(VkCommandBuffer)>& drawInterface);
     void drawFrame(bool isShown);
     void drawInterface();
+    void drawOtherViewports(float scale);
     bool askBeforeClosing();
     void rescue();
 
@@ -111,6 +113,8 @@ class App {
     Gui gui_;
     PictureArea picture_{gui_};
     SessionLink link_{options_, gui_, presenter_};
+    Viewports viewports_{gui_, link_, presenter_};
+    std::vector<PicturePart> otherPictures_; // of viewports that have not the focus, in this frame
 
     std::vector<std::string> dropped_;
     std::vector<InputEvent> input_;            // of the frame
@@ -178,7 +182,8 @@ bool App::isFrameDue() {
 // For input, for something new of the session, or for the time of another frame. The session's threads leave the window
 // system alone, which therefore ends the program, where it does, on this thread.
 void App::wait() {
-    const bool isBusy = gui_.state.activity == app::Activity::Rendering || !gui_.state.stage.empty();
+    const bool isBusy =
+        gui_.state.activity == app::Activity::Rendering || !gui_.state.stage.empty() || gui_.areOthersBusy;
     // A stage tells how long it has taken, and a field of text has a cursor that blinks.
     const bool moves = !gui_.state.stage.empty() || ImGui::GetIO().WantTextInput;
     const bool blinks = gui_.pinned && gui_.compareBy == CompareBy::Blink;
@@ -199,7 +204,7 @@ void App::waitForPresenting() {
 
 void App::turn() {
     const app::Stopwatch busy;
-    link_.take();
+    viewports_.take();
     if (!dropped_.empty()) {
         const std::string& file = dropped_.front();
         isMaterialFile(file) ? (void)(gui_.materials.droppedFile = file) : gui_.openScene(file);
@@ -232,7 +237,9 @@ void App::turn() {
         materialPictures_.upload(commands, frame);
         probeImage_.upload(commands, frame);
     };
-    presenting_.present({{width, height}, picture_.constants(), upload, drawInterface});
+    std::vector<PicturePart> pictures{{viewports_.slot(), picture_.constants()}};
+    pictures.insert(pictures.end(), otherPictures_.begin(), otherPictures_.end());
+    presenting_.present({{width, height}, std::move(pictures), upload, drawInterface});
     meter_.add(busy.seconds());
     gui_.figures = meter_.figures();
     session_.tell(gui_.figures.window);
@@ -291,7 +298,7 @@ void App::drawFrame(bool isShown) {
     flying_ = fly(gui_, input_, seconds);
     gui_.isHeld = flying_ || ImGui::IsAnyMouseDown() || gui_.editing.tool;
     isShown ? imgui_.endFrame() : imgui_.dropFrame();
-    link_.send();
+    viewports_.send();
     if (gui_.saveRequested || !gui_.saveAs.empty()) save();
 }
 
@@ -322,9 +329,14 @@ void App::drawInterface() {
     }
     panels.front().focus = std::exchange(gui_.focusPanels, false);
     const float scale = imgui_.scale();
-    const Rect area =
+    viewports_.place(
         layOut(panels, scale,
-               {[this] { drawToolbar(gui_); }, [this] { drawProgress(gui_); }, [this] { drawStatusLine(gui_); }});
+               {[this] { drawToolbar(gui_); }, [this] { drawProgress(gui_); }, [this] { drawStatusLine(gui_); }}),
+        scale);
+    viewports_.handlePointer();
+    viewports_.drawFrames();
+    drawOtherViewports(scale);
+    const Rect area = viewports_.focusArea();
     picture_.place(area, innerArea(gui_, area, scale));
     gui_.previewWidth = picture_.previewWidth();
     picture_.handlePointer();
@@ -342,6 +354,23 @@ void App::drawInterface() {
     drawUnsaved(gui_);
     if (gui_.browser.isOpen())
         if (const auto file = gui_.browser.draw(settings_.recent)) gui_.take(*file);
+}
+
+// What they are, and what is selected in them.
+void App::drawOtherViewports(float scale) {
+    otherPictures_.clear();
+    viewports_.eachOther([&](const Rect& area, std::size_t slot) {
+        picture_.place(area, innerArea(gui_, area, scale));
+        gui_.previewWidth = picture_.previewWidth();
+        const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
+        const VkRect2D part{
+            {static_cast<std::int32_t>(area.x * pixels.x), static_cast<std::int32_t>(area.y * pixels.y)},
+            {static_cast<std::uint32_t>(area.width * pixels.x), static_cast<std::uint32_t>(area.height * pixels.y)}};
+        otherPictures_.push_back({slot, picture_.constants(), part});
+        drawSelection(gui_, picture_.imageRect(), area);
+        drawViewLegend(gui_, area, scale);
+        drawChips(gui_, area, picture_.imageRect(), scale);
+    });
 }
 
 void App::rescue() {

@@ -11,6 +11,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/Printable.h"
+#include "Common/Gui/Panels/ImageSize.h"
 #include "Common/Gui/Panels/SavePaths.h"
 #include "Common/Gui/Widgets.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
@@ -67,7 +68,8 @@ std::string Gui::whyNotOther() const {
 
 void Gui::followOther() {
     using app::Activity;
-    const bool rests = state.activity == Activity::Finished || state.activity == Activity::Stopped;
+    const bool hasEnded = state.activity == Activity::Finished || state.activity == Activity::Stopped;
+    const bool rests = hasEnded && !areOthersBusy; // what is compared shares the device with nobody
     if (otherIsWanted && rests && state.stage.empty() && whyNotOther().empty()) {
         otherIsWanted = false;
         app::OtherJob job;
@@ -188,6 +190,11 @@ void Gui::toggleStatistics() {
         settings.showPanels = isOpen = true;
         revealPanel = "statistics";
     }
+}
+
+void Gui::stepViewports() {
+    const std::size_t now = viewportCount();
+    wishViewports(*this, now == 1 ? 2 : now == 2 ? 4 : 1);
 }
 
 void Gui::setRayTracing(bool on) {

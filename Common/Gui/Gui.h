@@ -1,5 +1,7 @@
 // What the parts of the window's interface share: the session, the settings, and what is shown of both.
 #pragma once
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -92,13 +94,19 @@ struct Gui {
     std::string referencePath;
     bool onlyThisScene = true;
     RunBoard runs;
-    std::vector<app::RunRecord> runsToDelete;  // before the next frame draws any
-    std::optional<app::SizeRequest> askedSize; // of the image, which takes much memory; none
-    bool isHeld = false;                       // a control or the camera, by the mouse or by keys
-    bool otherIsWanted = false;                // as soon as this render has ended
-    std::uint64_t otherSerial = 0;             // of the picture of the other program that was pinned
-    Rect chart;                                // of the comparison, in the window's units
-    std::optional<SavedPart> partToSave;       // of the window, as a file
+    std::vector<app::RunRecord> runsToDelete;   // before the next frame draws any
+    std::optional<app::SizeRequest> askedSize;  // of the image, which takes much memory; none
+    std::optional<std::size_t> askedViewports;  // likewise, how many
+    std::string viewportName;                   // by what it differs from the others; empty: there are no others
+    std::optional<std::size_t> wantedViewports; // how many there are to be from the next frame on
+    bool stepsFocus = false;                    // likewise the next one is to have the focus
+    bool areOthersBusy = false;                 // viewports that have not the focus render or prepare something
+    double otherPixels = 0;                     // of the films of viewports that have not the focus
+    bool isHeld = false;                        // a control or the camera, by the mouse or by keys
+    bool otherIsWanted = false;                 // as soon as this render has ended
+    std::uint64_t otherSerial = 0;              // of the picture of the other program that was pinned
+    Rect chart;                                 // of the comparison, in the window's units
+    std::optional<SavedPart> partToSave;        // of the window, as a file
     RaceForm race;
     UiFigures figures;
     bool showHelp = false;
@@ -136,6 +144,8 @@ struct Gui {
     void toggleRace();
     void saveText(const std::filesystem::path& file, const std::string& text);
     void toggleStatistics();
+    std::size_t viewportCount() const { return std::max<std::size_t>(1, settings.viewports.size()); }
+    void stepViewports();        // 1, 2, 4, 1
     void setRayTracing(bool on); // where there is a preview to show instead
     void scaleInterface(float change);
     void browse(BrowseFor what);

@@ -29,7 +29,7 @@ Presenter::Presenter(GraphicsDevice& device, const Window& window) : device_(dev
                              VK_ATTACHMENT_LOAD_OP_DONT_CARE, // the picture and its surroundings cover everything
                              VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
     createSlots();
-    film_ = std::make_unique<FilmPass>(device, renderPass_.get());
+    filmOf(shown_.front());
     provideSwapchain(window.framebufferSize());
 }
 
@@ -165,11 +165,19 @@ bool Presenter::createSwapchain(const VkSurfaceCapabilitiesKHR& able, VkExtent2D
     return true;
 }
 
-void Presenter::setPicture(std::shared_ptr<const image::Image> picture) {
-    newPicture_ = std::move(picture);
+void Presenter::setPicture(std::size_t slot, std::shared_ptr<const image::Image> picture) {
+    shown_[slot].newPicture = std::move(picture);
 }
-void Presenter::setHeld(std::shared_ptr<const image::Image> held) {
-    newHeld_ = std::move(held);
+void Presenter::setHeld(std::size_t slot, std::shared_ptr<const image::Image> held) {
+    shown_[slot].newHeld = std::move(held);
+}
+void Presenter::drop(std::size_t slot) {
+    if (shown_[slot].film) check(vkDeviceWaitIdle(device_.device()), "Drawing on " + device_.name());
+    shown_[slot] = {};
+}
+FilmPass& Presenter::filmOf(Shown& shown) {
+    if (!shown.film) shown.film = std::make_unique<FilmPass>(device_, renderPass_.get());
+    return *shown.film;
 }
 
 void Presenter::present(const WindowFrame& frame) {
@@ -227,10 +235,11 @@ void Presenter::record(FrameSlot& slot, const SwapImage& target, const WindowFra
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(vkBeginCommandBuffer(slot.commands, &begin), "Recording commands");
-    if (newPicture_) film_->upload(slot.commands, slot_, FilmPass::Slot::Picture, *newPicture_);
-    if (newHeld_) film_->upload(slot.commands, slot_, FilmPass::Slot::Held, *newHeld_);
-    newPicture_ = nullptr;
-    newHeld_ = nullptr;
+    for (Shown& shown : shown_) {
+        if (shown.newPicture) filmOf(shown).upload(slot.commands, slot_, FilmPass::Slot::Picture, *shown.newPicture);
+        if (shown.newHeld) filmOf(shown).upload(slot.commands, slot_, FilmPass::Slot::Held, *shown.newHeld);
+        shown.newPicture = shown.newHeld = nullptr;
+    }
     frame.upload(slot.commands, slot_);
 
     VkRenderPassBeginInfo pass{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
@@ -238,7 +247,19 @@ void Presenter::record(FrameSlot& slot, const SwapImage& target, const WindowFra
     pass.framebuffer = target.framebuffer.get();
     pass.renderArea.extent = extent_;
     vkCmdBeginRenderPass(slot.commands, &pass, VK_SUBPASS_CONTENTS_INLINE);
-    film_->draw(slot.commands, extent_, frame.constants);
+    // The frame was laid out for a window that may have become smaller meanwhile.
+    const auto within = [this](VkRect2D part) {
+        part.offset.x = std::clamp(part.offset.x, 0, static_cast<std::int32_t>(extent_.width));
+        part.offset.y = std::clamp(part.offset.y, 0, static_cast<std::int32_t>(extent_.height));
+        part.extent.width = std::min(part.extent.width, extent_.width - static_cast<std::uint32_t>(part.offset.x));
+        part.extent.height = std::min(part.extent.height, extent_.height - static_cast<std::uint32_t>(part.offset.y));
+        return part;
+    };
+    for (const PicturePart& picture : frame.pictures) {
+        const bool isFirst = &picture == &frame.pictures.front();
+        const VkRect2D part = isFirst ? VkRect2D{{0, 0}, extent_} : within(picture.part);
+        filmOf(shown_[picture.slot]).draw(slot.commands, extent_, picture.constants, part);
+    }
     frame.drawInterface(slot.commands);
     vkCmdEndRenderPass(slot.commands);
     check(vkEndCommandBuffer(slot.commands), "Recording commands");

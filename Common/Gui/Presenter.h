@@ -15,9 +15,18 @@
 
 namespace rt::gui {
 
-struct WindowFrame {
-    std::array<int, 2> size{}; // of the window, in pixels
+inline constexpr std::size_t kMaxViewports = 4;
+
+// A picture, and the part of the window that shows it.
+struct PicturePart {
+    std::size_t slot = 0; // as in Presenter::setPicture()
     PresentConstants constants;
+    VkRect2D part{}; // in pixels, within the window; of the first one all of the window
+};
+
+struct WindowFrame {
+    std::array<int, 2> size{};         // of the window, in pixels
+    std::vector<PicturePart> pictures; // the first one with its surroundings covers everything, others lie over it
     // Outside of the render pass, with the number of the frame in flight: what the interface needs.
     std::function<void(VkCommandBuffer, std::uint32_t)> upload;
     std::function<void(VkCommandBuffer)> drawInterface; // over the picture
@@ -34,9 +43,11 @@ class Presenter {
     VkFormat format() const { return format_.format; } // of the swapchain
     std::uint32_t imageCount() const { return static_cast<std::uint32_t>(images_.size()); }
 
-    // Are shown from the next frame on. The image must have three channels.
-    void setPicture(std::shared_ptr<const image::Image> picture);
-    void setHeld(std::shared_ptr<const image::Image> held);
+    // Are shown from the next frame on, of each viewport in a slot of its own, below kMaxViewports. The image must have
+    // three channels.
+    void setPicture(std::size_t slot, std::shared_ptr<const image::Image> picture);
+    void setHeld(std::size_t slot, std::shared_ptr<const image::Image> held);
+    void drop(std::size_t slot); // frees both; while no frame is under way
 
     // On the window's thread, before a frame: what the window system has taken away is replaced. Throws RenderError.
     void renew();
@@ -64,13 +75,19 @@ class Presenter {
     bool createSwapchain(const VkSurfaceCapabilitiesKHR& able, VkExtent2D extent);
     void dropSwapchain();
     void createImage(VkImage image, SwapImage& to);
+    // Of a viewport, and what is to be uploaded.
+    struct Shown {
+        std::unique_ptr<FilmPass> film;
+        std::shared_ptr<const image::Image> newPicture, newHeld;
+    };
+    FilmPass& filmOf(Shown& shown);
     void record(FrameSlot& slot, const SwapImage& target, const WindowFrame& frame);
 
     GraphicsDevice& device_;
     const Window& window_;
     VkSurfaceFormatKHR format_{};
     vulkan::Handle<VkRenderPass> renderPass_;
-    std::unique_ptr<FilmPass> film_;
+    std::array<Shown, kMaxViewports> shown_;
     std::array<FrameSlot, kFramesInFlight> slots_;
     std::uint32_t slot_ = 0;
 
@@ -78,8 +95,6 @@ class Presenter {
     VkExtent2D extent_{};
     std::vector<SwapImage> images_;
     bool surfaceLost_ = false;
-
-    std::shared_ptr<const image::Image> newPicture_, newHeld_; // to be uploaded
 };
 
 } // namespace rt::gui

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -22,6 +21,8 @@ app::InteractiveSession::Setup sessionSetup(const app::Options& options, const W
                                             std::atomic<bool>& isNews) {
     settings.request.halves = settings.denoise;
     settings.engine = servedChoice(settings.engine, program.devices, options); // what this machine has
+    for (app::ViewportSettings& viewport : settings.viewports)
+        viewport.engine = servedChoice(viewport.engine, program.devices, options);
     app::InteractiveSession::Setup setup;
     setup.options = options;
     setup.makeEngine = program.makeEngine;
@@ -48,29 +49,31 @@ SessionLink::SessionLink(const app::Options& options, Gui& gui, Presenter& prese
       gui_(gui),
       presenter_(presenter),
       reference_(options.reference),
-      sentRequest_(gui.settings.request),
-      sentEngine_(gui.settings.engine),
-      sentRayTracing_(gui.settings.rayTracing),
-      sentEnd_(endFiles(options, gui.settings)) {}
+      sentEnd_(endFiles(options, gui.settings)) {
+    now_.request = gui.settings.request;
+    now_.engine = gui.settings.engine;
+    now_.rayTracing = gui.settings.rayTracing;
+}
 
-void SessionLink::take() {
+void SessionLink::take(bool hasFocus) {
     gui_.state = gui_.session.state();
     const app::SessionState& state = gui_.state;
-    if (state.fatal) std::rethrow_exception(state.fatal);
-    if (state.engineFailures != engineFailures_) {
-        engineFailures_ = state.engineFailures;
+    if (state.engineFailures != now_.engineFailures) {
+        now_.engineFailures = state.engineFailures;
         gui_.settings.engine = state.engine;
     }
-    if (state.sceneSerial != sceneSerial_) {
-        sceneSerial_ = state.sceneSerial;
+    if (state.sceneSerial > 0 && state.sceneSerial != now_.sceneSerial) {
+        now_.sceneSerial = state.sceneSerial;
         gui_.camera.setHome(state.scene->camera);
-        sentCamera_ = state.scene->camera;
+        now_.camera = state.scene->camera;
     }
-    rememberScene();
-    showTitle();
-    if (gui_.settings.reloadScenes && !gui_.editor.isDirty() && !gui_.editor.isSaving()) followFile();
-    if (state.focusSerial != focusSerial_) {
-        focusSerial_ = state.focusSerial;
+    if (hasFocus) {
+        rememberScene();
+        showTitle();
+        if (gui_.settings.reloadScenes && !gui_.editor.isDirty() && !gui_.editor.isSaving()) followFile();
+    }
+    if (state.focusSerial != now_.focusSerial) {
+        now_.focusSerial = state.focusSerial;
         gui_.camera.focusAt(state.focusDistance, 1);
     }
     if (gui_.viewRequest.mode == app::ViewMode::Error && !state.referenceFits && !state.isReferenceRender) {
@@ -79,21 +82,26 @@ void SessionLink::take() {
     const bool mayBeGone = app::showsDenoiser(gui_.viewRequest.mode) || state.picture.isOfRace;
     if (mayBeGone && !isAvailable(gui_, gui_.viewRequest.mode))
         gui_.viewRequest.mode = app::ViewMode::Picture; // there is nothing to show of it any more
-    if (state.picture.image && state.picture.serial != pictureSerial_) {
-        pictureSerial_ = state.picture.serial;
-        presenter_.setPicture(state.picture.image);
+    if (state.picture.image && state.picture.serial != now_.pictureSerial) {
+        now_.pictureSerial = state.picture.serial;
+        presenter_.setPicture(now_.slot, state.picture.image);
         if (gui_.settings.autoExposure) followExposure();
     }
-    if (!reference_.empty() && state.picture.spp > 0) { // there is something to compare with
+    if (hasFocus && !reference_.empty() && state.picture.spp > 0) { // there is something to compare with
         gui_.session.loadReference(reference_);
         reference_.clear();
     }
-    const std::uint64_t fresh = std::min<std::uint64_t>(state.errorSerial - errorSerial_, state.errors.size());
-    errorSerial_ = state.errorSerial;
+    takeErrors();
+}
+
+void SessionLink::takeErrors() {
+    const app::SessionState& state = gui_.state;
+    const std::uint64_t fresh = std::min<std::uint64_t>(state.errorSerial - now_.errorSerial, state.errors.size());
+    now_.errorSerial = state.errorSerial;
     for (std::size_t i = state.errors.size() - fresh; i < state.errors.size(); ++i)
         gui_.fail(state.errors[i].text, state.errors[i].source);
-    if (state.messageSerial != messageSerial_) {
-        messageSerial_ = state.messageSerial;
+    if (state.messageSerial != now_.messageSerial) {
+        now_.messageSerial = state.messageSerial;
         gui_.say(state.message);
     }
 }
@@ -150,44 +158,48 @@ void SessionLink::followFile() {
     if (gui_.session.reopen(mark->file)) askedMark_ = mark; // once, also where it does not load
 }
 
-void SessionLink::send() {
+void SessionLink::send(bool hasFocus) {
     gui_.settings.request.halves = gui_.viewRequest.denoise = gui_.settings.denoise;
-    if (gui_.settings.request != sentRequest_) {
-        sentRequest_ = gui_.settings.request;
-        gui_.session.change(sentRequest_);
+    if (gui_.settings.request != now_.request) {
+        now_.request = gui_.settings.request;
+        gui_.session.change(now_.request);
     }
-    if (gui_.settings.engine != sentEngine_) {
-        sentEngine_ = gui_.settings.engine;
-        gui_.session.choose(sentEngine_);
+    if (gui_.settings.engine != now_.engine) {
+        now_.engine = gui_.settings.engine;
+        gui_.session.choose(now_.engine);
     }
-    if (gui_.settings.rayTracing != sentRayTracing_) {
-        sentRayTracing_ = gui_.settings.rayTracing;
-        gui_.session.preview(!sentRayTracing_);
+    if (gui_.settings.rayTracing != now_.rayTracing) {
+        now_.rayTracing = gui_.settings.rayTracing;
+        gui_.session.preview(!now_.rayTracing);
     }
-    if (!sentRayTracing_ && gui_.previewWidth != sentPreviewWidth_) {
-        sentPreviewWidth_ = gui_.previewWidth;
-        gui_.session.previewWidth(sentPreviewWidth_);
+    if (!now_.rayTracing && gui_.previewWidth != now_.previewWidth) {
+        now_.previewWidth = gui_.previewWidth;
+        gui_.session.previewWidth(now_.previewWidth);
     }
-    if (std::exchange(sentHeld_, gui_.isHeld) != gui_.isHeld) gui_.session.hold(gui_.isHeld);
-    if (gui_.viewRequest != sentView_) {
-        sentView_ = gui_.viewRequest;
-        gui_.session.view(sentView_);
+    const bool isHeld = hasFocus && gui_.isHeld;
+    if (std::exchange(now_.held, isHeld) != isHeld) gui_.session.hold(isHeld);
+    if (gui_.viewRequest != now_.view) {
+        now_.view = gui_.viewRequest;
+        gui_.session.view(now_.view);
     }
     if (!gui_.settings.showRace && gui_.state.race && gui_.state.race->isShown) gui_.session.leaveRace();
-    if (const app::SaveRequest end = filesOf(options_, gui_.exposure(), gui_.settings.tonemap);
-        sentEnd_ && end != *sentEnd_) {
-        sentEnd_ = end;
-        gui_.session.writeAtEnd(end);
-    }
+    if (hasFocus) sendEnd();
     gui_.pinned.follow(gui_.state, gui_.viewRequest);
-    if (gui_.pinned.shown().get() != shownHeld_) {
-        shownHeld_ = gui_.pinned.shown().get();
-        if (gui_.pinned) presenter_.setHeld(gui_.pinned.shown());
+    if (gui_.pinned.shown() != now_.shownHeld) {
+        now_.shownHeld = gui_.pinned.shown();
+        if (gui_.pinned) presenter_.setHeld(now_.slot, now_.shownHeld);
     }
-    if (sceneSerial_ > 0 && gui_.camera.camera() != sentCamera_) {
-        sentCamera_ = gui_.camera.camera();
-        gui_.session.moveCamera(sentCamera_, sceneSerial_);
+    if (now_.sceneSerial > 0 && gui_.camera.camera() != now_.camera) {
+        now_.camera = gui_.camera.camera();
+        gui_.session.moveCamera(now_.camera, now_.sceneSerial);
     }
+}
+
+void SessionLink::sendEnd() {
+    const app::SaveRequest end = filesOf(options_, gui_.exposure(), gui_.settings.tonemap);
+    if (!sentEnd_ || end == *sentEnd_) return;
+    sentEnd_ = end;
+    gui_.session.writeAtEnd(end);
 }
 
 } // namespace rt::gui

@@ -2,7 +2,9 @@
 // sent, each of it once.
 #pragma once
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -21,38 +23,48 @@ app::InteractiveSession::Setup sessionSetup(const app::Options& options, const W
 
 class SessionLink {
   public:
+    // Of a viewport: what has been taken of its state and sent of its wishes.
+    struct Memory {
+        std::size_t slot = 0; // of the presenter
+        std::uint64_t sceneSerial = 0, pictureSerial = 0, errorSerial = 0, messageSerial = 0, focusSerial = 0;
+        std::uint64_t engineFailures = 0;
+        app::RenderRequest request;
+        app::EngineChoice engine;
+        bool rayTracing = true, held = false;
+        std::uint32_t previewWidth = 0;
+        scene::CameraDesc camera;
+        app::ViewRequest view;
+        std::shared_ptr<const image::Image> shownHeld;
+    };
+
     // The session has been given the settings as they are.
     SessionLink(const app::Options& options, Gui& gui, Presenter& presenter);
 
-    void take(); // the state of a frame, with what follows from it. Throws what is fatal to the session
-    void send();
+    // Of the viewport that the session addresses and the Gui shows. `hasFocus`: it is not only for the moment that it
+    // does.
+    void take(bool hasFocus); // the state of a frame, with what follows from it
+    void send(bool hasFocus);
+    Memory& memory() { return now_; } // of that viewport
 
   private:
+    void takeErrors();
     void rememberScene();
     void showTitle();
     void followExposure();
     void followFile();
+    void sendEnd();
 
     const app::Options& options_;
     Gui& gui_;
     Presenter& presenter_;
+    Memory now_;
     std::optional<app::FileFingerprint> seenMark_,
         askedMark_; // of the scene's file: at the last look; when it was read again
     app::Stopwatch sinceLook_;
     std::string title_;     // of the window
     std::string reference_; // to be loaded when there is something to compare with; empty: none or done
-
-    std::uint64_t sceneSerial_ = 0, pictureSerial_ = 0, errorSerial_ = 0, messageSerial_ = 0, focusSerial_ = 0;
-    std::uint64_t engineFailures_ = 0, sceneLoads_ = 0, sceneFailures_ = 0, sceneReads_ = 0;
+    std::uint64_t sceneLoads_ = 0, sceneFailures_ = 0, sceneReads_ = 0;
     std::string rememberedSource_;
-
-    app::RenderRequest sentRequest_;
-    app::EngineChoice sentEngine_;
-    bool sentRayTracing_, sentHeld_ = false;
-    std::uint32_t sentPreviewWidth_ = 0;
-    scene::CameraDesc sentCamera_;
-    app::ViewRequest sentView_;
-    const image::Image* shownHeld_ = nullptr;
     std::optional<app::SaveRequest> sentEnd_; // none where the program was not asked for files
 };
 

@@ -48,8 +48,25 @@ TEST_F(GuiSettingsTest, SurviveTheFile) {
     s.engine.threads = 3;
     s.engine.kind = GpuEngineKind::Compute;
     s.engine.device = "some GPU";
+    s.viewports.resize(4);
+    s.viewports[2].request.settings.lightSampling = LightSampling::Bsdf;
+    s.viewports[2].exposure = 1.5f;
+    s.viewports[3].denoise = false;
+    s.viewports[3].engine.threads = 2;
+    s.focusedViewport = 1;
+    s.splitX = 0.25f;
+    s.linkCameras = false;
     saveGuiSettings(file_, s);
     EXPECT_EQ(loadGuiSettings(file_), s);
+}
+
+TEST_F(GuiSettingsTest, ThereAreOneTwoOrFourViewports) {
+    EXPECT_EQ(loadText("{\"viewports\": [{}, {}], \"focused_viewport\": 1}").viewports.size(), 2u);
+    for (const char* text : {"{\"viewports\": [{}, {}, {}]}", "{\"viewports\": [{}]}", "{\"viewports\": 2}"})
+        EXPECT_EQ(loadText(text), GuiSettings()) << text;
+    const GuiSettings beyond = loadText("{\"viewports\": [{}, {}], \"focused_viewport\": 2, \"split_x\": 2}");
+    EXPECT_EQ(beyond.focusedViewport, 0u);
+    EXPECT_EQ(beyond.splitX, 0.5f);
 }
 
 TEST_F(GuiSettingsTest, NonsenseLeavesDefaults) {

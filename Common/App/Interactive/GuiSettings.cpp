@@ -100,6 +100,48 @@ Json toJson(const RenderRequest& request) {
     return json;
 }
 
+void readViewport(const Reader& reader, ViewportSettings& viewport) {
+    reader.read("ray_tracing", viewport.rayTracing);
+    reader.read("denoise", viewport.denoise);
+    reader.read("auto_exposure", viewport.autoExposure);
+    reader.read("exposure", viewport.exposure, -100, 100);
+    reader.read("tonemap", kTonemaps, viewport.tonemap);
+    if (const auto* render = reader.find("render"); render != nullptr) readRequest(Reader(*render), viewport.request);
+    if (const auto* engine = reader.find("engine"); engine != nullptr) {
+        const Reader e(*engine);
+        e.read("kind", kGpuEngines, viewport.engine.kind);
+        e.read("device", viewport.engine.device);
+        e.read("policy", kPolicies, viewport.engine.policy);
+        e.read("threads", viewport.engine.threads, 0, 4096);
+    }
+}
+
+Json toJson(const ViewportSettings& v) {
+    return {{"ray_tracing", v.rayTracing},
+            {"denoise", v.denoise},
+            {"auto_exposure", v.autoExposure},
+            {"exposure", v.exposure},
+            {"tonemap", nameOf(kTonemaps, v.tonemap)},
+            {"render", toJson(v.request)},
+            {"engine",
+             {{"kind", nameOf(kGpuEngines, v.engine.kind)},
+              {"device", v.engine.device},
+              {"policy", nameOf(kPolicies, v.engine.policy)},
+              {"threads", v.engine.threads}}}};
+}
+
+// As many as there may be, or one.
+void readViewports(const Reader& reader, GuiSettings& settings) {
+    const auto* viewports = reader.find("viewports");
+    if (viewports == nullptr || !viewports->is_array()) return;
+    const std::size_t count = viewports->size();
+    if (count < 2 ||
+        std::find(std::begin(kViewportCounts), std::end(kViewportCounts), count) == std::end(kViewportCounts))
+        return;
+    for (const nlohmann::json& viewport : *viewports) readViewport(Reader(viewport), settings.viewports.emplace_back());
+    reader.read("focused_viewport", settings.focusedViewport, 0, static_cast<double>(count - 1));
+}
+
 // What is on or off in a window, its key in the file.
 template <typename Visit, typename Settings>
 void forEachToggle(const Visit& visit, Settings& settings) {
@@ -109,11 +151,9 @@ void forEachToggle(const Visit& visit, Settings& settings) {
     visit("show_panels", settings.showPanels);
     visit("show_comparison", settings.showComparison);
     visit("show_statistics", settings.showStatistics);
-    visit("auto_exposure", settings.autoExposure);
     visit("reload_scenes", settings.reloadScenes);
     visit("saw_first_steps", settings.sawFirstSteps);
-    visit("ray_tracing", settings.rayTracing);
-    visit("denoise", settings.denoise);
+    visit("link_cameras", settings.linkCameras);
     visit("show_gizmo", settings.showGizmo);
     visit("local_axes", settings.localAxes);
 }
@@ -149,22 +189,16 @@ GuiSettings parseGuiSettings(std::string_view text) {
             if (isOpen.is_boolean()) settings.openPanels[id] = isOpen;
     }
     reader.read("race_seconds", settings.raceSeconds, kMinRaceSeconds, kMaxRaceSeconds);
-    reader.read("exposure", settings.exposure, -100, 100);
-    reader.read("tonemap", kTonemaps, settings.tonemap);
+    readViewport(reader, settings);
+    readViewports(reader, settings);
+    reader.read("split_x", settings.splitX, kMinSplit, kMaxSplit);
+    reader.read("split_y", settings.splitY, kMinSplit, kMaxSplit);
     reader.read("save_folder", settings.saveFolder);
     reader.read("scene", settings.scene);
     if (settings.scene.empty()) settings.scene = GuiSettings().scene;
     if (const auto* recent = reader.find("recent"); recent != nullptr && recent->is_array()) {
         for (const nlohmann::json& name : *recent)
             if (name.is_string() && settings.recent.size() < kMaxRecent) settings.recent.push_back(name);
-    }
-    if (const auto* render = reader.find("render"); render != nullptr) readRequest(Reader(*render), settings.request);
-    if (const auto* engine = reader.find("engine"); engine != nullptr) {
-        const Reader e(*engine);
-        e.read("kind", kGpuEngines, settings.engine.kind);
-        e.read("device", settings.engine.device);
-        e.read("policy", kPolicies, settings.engine.policy);
-        e.read("threads", settings.engine.threads, 0, 4096);
     }
     return settings;
 }
@@ -182,17 +216,15 @@ std::string toText(const GuiSettings& s) {
               {"window_height", s.windowHeight},
               {"open_panels", s.openPanels},
               {"race_seconds", s.raceSeconds},
-              {"exposure", s.exposure},
-              {"tonemap", nameOf(kTonemaps, s.tonemap)},
+              {"focused_viewport", s.focusedViewport},
+              {"split_x", s.splitX},
+              {"split_y", s.splitY},
               {"save_folder", s.saveFolder},
               {"scene", s.scene},
-              {"recent", s.recent},
-              {"render", toJson(s.request)},
-              {"engine",
-               {{"kind", nameOf(kGpuEngines, s.engine.kind)},
-                {"device", s.engine.device},
-                {"policy", nameOf(kPolicies, s.engine.policy)},
-                {"threads", s.engine.threads}}}};
+              {"recent", s.recent}};
+    json.update(toJson(static_cast<const ViewportSettings&>(s)));
+    json["viewports"] = Json::array();
+    for (const ViewportSettings& viewport : s.viewports) json["viewports"].push_back(toJson(viewport));
     forEachToggle([&json](const char* key, bool value) { json[key] = value; }, s);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }

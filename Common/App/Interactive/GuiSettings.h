@@ -35,8 +35,23 @@ inline constexpr float kMinUiScale = 0.75f;
 inline constexpr float kMaxUiScale = 3.0f;
 inline constexpr std::size_t kMaxRecent = 10; // files
 
-// Of the panels at the side, those that are folded out.
-struct GuiSettings {
+// What each viewport has of its own.
+struct ViewportSettings {
+    RenderRequest request;
+    EngineChoice engine;
+    bool rayTracing = true;             // of ray-tracing-gpu; off: its preview
+    bool denoise = true;                // pictures with less noise, while they converge and after
+    float exposure = 0;                 // stops
+    bool autoExposure = false;          // on top of what suits the picture
+    Tonemap tonemap = Tonemap::Neutral; // colours below white stay what they are
+    bool operator==(const ViewportSettings&) const = default;
+};
+
+inline constexpr std::size_t kViewportCounts[] = {1, 2, 4};
+inline constexpr float kMinSplit = 0.1f, kMaxSplit = 0.9f;
+
+// With those of the viewport that has the focus.
+struct GuiSettings : ViewportSettings {
     ColorMode colorMode = ColorMode::Dark;
     float uiScale = 1; // on top of the monitor's own
     std::string font;  // its name; empty: the first there is
@@ -48,20 +63,18 @@ struct GuiSettings {
     bool showPanels = true;
     bool showComparison = false;
     bool showStatistics = true;
-    std::map<std::string, bool>
-        openPanels;                     // whether each is folded out, by its id; others are as the table of panels says
-    float exposure = 0;                 // stops
-    bool autoExposure = false;          // on top of what suits the picture
-    Tonemap tonemap = Tonemap::Neutral; // colours below white stay what they are
-    bool reloadScenes = true;           // when their files change
-    bool sawFirstSteps = false;         // the hint of the first run
-    std::string saveFolder;             // empty: chosen by the program
-    std::vector<std::string> recent;    // scene files that have loaded, the latest first
+    // Of the panels at the side: whether each is folded out, by its id; others are as the table of panels says.
+    std::map<std::string, bool> openPanels;
+    std::vector<ViewportSettings> viewports; // by place; of the one that has the focus this is of no account; none:
+                                             // there is one viewport
+    std::size_t focusedViewport = 0;         // its place
+    float splitX = 0.5f, splitY = 0.5f;      // where viewports meet, as shares of their part of the window
+    bool linkCameras = true;                 // of all viewports
+    bool reloadScenes = true;                // when their files change
+    bool sawFirstSteps = false;              // the hint of the first run
+    std::string saveFolder;                  // empty: chosen by the program
+    std::vector<std::string> recent;         // scene files that have loaded, the latest first
     std::string scene = "cornell-box-lights";
-    RenderRequest request;
-    bool rayTracing = true; // of ray-tracing-gpu; off: its preview
-    EngineChoice engine;
-    bool denoise = true; // pictures with less noise, while they converge and after
     SaveChoice saveChoice = SaveChoice::Seen;
     bool showGizmo = true; // over the picture, on what is selected
     ObjectTool::Kind gizmo = ObjectTool::Kind::Move;

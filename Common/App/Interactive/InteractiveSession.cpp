@@ -1,8 +1,10 @@
 #include "Common/App/Interactive/InteractiveSession.h"
 
+#include <algorithm>
+#include <stdexcept>
 #include <utility>
 
-#include "Common/App/Interactive/SessionThread.h"
+#include "Common/App/Interactive/ViewportThread.h"
 
 namespace rt::app {
 namespace {
@@ -29,19 +31,13 @@ bool differsInBudgetsAlone(const RenderRequest& before, RenderRequest after) {
 }
 
 InteractiveSession::InteractiveSession(Setup setup)
-    : setup_(std::move(setup)),
-      sentSize_(setup_.request.size),
-      state_(setup_.onChange),
-      loader_([this](LoadedScene loaded) {
-          mailbox_.post(Cancel::FirstPicture, [&](Requests& requests) {
-              if (loader_.isWanted(loaded.request)) requests.scene = std::move(loaded);
-          });
-      }) {
-    mailbox_.post(Cancel::Nothing, [this](Requests& requests) { requests.engine = setup_.engine; });
-    state_.setStage("Loading " + setup_.scene.source);
+    : setup_(std::move(setup)), loader_([this](LoadedScene loaded) { hand(std::move(loaded)); }) {
+    addressed_ = add(setup_);
+    board_.setFocus(addressed_);
+    at().state.setStage("Loading " + setup_.scene.source);
     loader_.request(setup_.scene);
-    // The engine is made, used and destroyed on this thread.
-    thread_ = std::thread([this] { endFiles_ = SessionThread(setup_, mailbox_, state_, loader_).run(); });
+    // Engines are made, used and destroyed on this thread.
+    thread_ = std::thread([this] { endFiles_ = ViewportThread(board_, loader_).run(); });
 }
 
 InteractiveSession::~InteractiveSession() {
@@ -50,22 +46,114 @@ InteractiveSession::~InteractiveSession() {
 
 EndFiles InteractiveSession::close() {
     if (thread_.joinable()) {
-        mailbox_.post(Cancel::Build, [](Requests& requests) { requests.quit = true; });
+        postToAll(Cancel::Build, [](Requests& requests) { requests.quit = true; });
         thread_.join();
     }
     return endFiles_;
 }
 
+// ---- viewports -----------------------------------------------------------------------------------------------------
+
+std::vector<std::shared_ptr<Viewport>> InteractiveSession::viewports() const {
+    const std::scoped_lock lock(mutex_);
+    return viewports_;
+}
+
+std::shared_ptr<Viewport> InteractiveSession::viewport(ViewportId id) const {
+    for (const auto& viewport : viewports())
+        if (viewport->id == id) return viewport;
+    throw std::logic_error("there is no such viewport");
+}
+
+ViewportId InteractiveSession::add(Setup setup) {
+    const ViewportId id = ++lastId_;
+    sentSizes_[id] = setup.request.size;
+    auto viewport = std::make_shared<Viewport>(id, std::move(setup), [this] { board_.ring(); });
+    viewport->mailbox.post(Cancel::Nothing, [&](Requests& requests) { requests.engine = viewport->setup.engine; });
+    // Pictures of two of them are told apart by their serials.
+    viewport->state.update([id](SessionState& state) { state.picture.serial = std::uint64_t{id} << 32; });
+    {
+        const std::scoped_lock lock(mutex_);
+        viewports_.push_back(viewport);
+    }
+    board_.open(std::move(viewport));
+    return id;
+}
+
+ViewportId InteractiveSession::openViewport(const RenderRequest& request, const EngineChoice& engine,
+                                            const scene::CameraDesc& camera, bool preview) {
+    Setup setup = setup_;
+    setup.request = request;
+    setup.engine = engine;
+    setup.preview = preview;
+    setup.atEnd.reset(); // of the first one
+    const SessionState now = state();
+    LoadedScene loaded;
+    loaded.scene = now.scene;
+    loaded.request = loader_.lastRequest();
+    loaded.request.source = now.source;
+    loaded.request.moment = now.moment;
+    loaded.request.edits = now.sceneEdits;
+    loaded.mark = now.sourceMark;
+    loaded.seconds = now.seconds.load;
+    loaded.reads = now.sceneReads;
+    const ViewportId id = add(std::move(setup));
+    viewport(id)->mailbox.post(Cancel::Nothing, [&](Requests& requests) {
+        if (!requests.scene) requests.scene = std::move(loaded); // a newer one may be there
+        requests.camera.emplace(1, camera);                      // of the first scene that it gets
+    });
+    return id;
+}
+
+void InteractiveSession::closeViewport(ViewportId id) {
+    const std::shared_ptr<Viewport> leaving = viewport(id);
+    {
+        const std::scoped_lock lock(mutex_);
+        viewports_.erase(std::find(viewports_.begin(), viewports_.end(), leaving));
+    }
+    sentSizes_.erase(id);
+    leaving->mailbox.post(Cancel::Build, [](Requests& requests) { requests.quit = true; });
+}
+
+// To the one that is addressed. What the user does where the focus is, others give way to.
+void InteractiveSession::post(Cancel cancel, const std::function<void(Requests&)>& change) {
+    at().mailbox.post(cancel, change);
+    if (cancel == Cancel::Nothing || addressed_ != board_.focus()) return;
+    for (const auto& other : viewports())
+        if (other->id != addressed_) other->mailbox.interrupt(Cancel::Build);
+}
+
+void InteractiveSession::postToAll(Cancel cancel, const std::function<void(Requests&)>& change) {
+    for (const auto& viewport : viewports()) viewport->mailbox.post(cancel, change);
+}
+
+void InteractiveSession::noteMotion() {
+    if (addressed_ == board_.focus()) board_.noteMotion();
+}
+
+// Of a scene that cannot be had one of them tells.
+void InteractiveSession::hand(LoadedScene loaded) {
+    if (loaded.scene && loaded.request.edits == 0) ++reads_;
+    loaded.reads = reads_;
+    if (loaded.request.edits > 0) board_.noteMotion(); // an edit is seen first where it is made
+    for (const auto& viewport : viewports()) {
+        if (loaded.failure && viewport->id != board_.focus()) continue;
+        viewport->mailbox.post(Cancel::FirstPicture, [&](Requests& requests) {
+            if (loader_.isWanted(loaded.request)) requests.scene = loaded;
+        });
+    }
+}
+
 // What is being built for the scene before is of no use any more, and neither is one that waits for that.
 void InteractiveSession::dropScenes() {
-    mailbox_.post(Cancel::Build, [this](Requests& requests) {
+    postToAll(Cancel::Build, [this](Requests& requests) {
         if (requests.scene && !loader_.isWanted(requests.scene->request)) requests.scene.reset();
         requests.dropsScene = true;
     });
 }
 
 void InteractiveSession::open(const std::string& source) {
-    state_.setStage("Loading " + source); // first: it may be there in no time
+    at().state.setStage("Loading " + source); // first: it may be there in no time
     loader_.open(source);
     dropScenes();
 }
@@ -84,7 +172,8 @@ bool InteractiveSession::reopen(const std::string& source) {
 
 std::uint64_t InteractiveSession::edit(std::vector<scene::SceneEdit> edits, bool isGesture) {
     const std::uint64_t number = loader_.edit(std::move(edits), isGesture);
-    mailbox_.post(Cancel::Nothing, [this](Requests& requests) {
+    noteMotion();
+    postToAll(Cancel::Nothing, [this](Requests& requests) {
         if (requests.scene && !loader_.isWanted(requests.scene->request)) requests.scene.reset();
         noteChange(requests);
     });
@@ -93,36 +182,47 @@ std::uint64_t InteractiveSession::edit(std::vector<scene::SceneEdit> edits, bool
 
 void InteractiveSession::nameEdited(const std::string& file) {
     loader_.rename(file);
-    mailbox_.post(Cancel::Nothing, [&](Requests& requests) {
+    postToAll(Cancel::Nothing, [&](Requests& requests) {
         requests.sceneFile = file;
         if (requests.scene && requests.scene->request.edits > 0) requests.scene->request.source = file;
     });
 }
 
+void InteractiveSession::writeAtEnd(const SaveRequest& request) {
+    const auto first = viewports().front();
+    if (first->setup.atEnd) first->mailbox.post(Cancel::Nothing, [&](Requests& requests) { requests.atEnd = request; });
+}
+
+void InteractiveSession::tell(const WindowFigures& figures) {
+    for (const auto& viewport : viewports()) viewport->state.tell(figures);
+}
+
 void InteractiveSession::change(const RenderRequest& request) {
     // Which lights there are is decided by the compiler.
     if (loader_.lastRequest().oneSidedLights != request.oneSidedLights) {
-        state_.setStage("Loading " + loader_.lastRequest().source);
+        at().state.setStage("Loading " + loader_.lastRequest().source);
         loader_.setOneSidedLights(request.oneSidedLights);
         dropScenes();
     }
     // A film of another size is not waited for: to reserve a large one takes a while.
-    const bool isAnotherSize = std::exchange(sentSize_, request.size) != request.size;
-    mailbox_.post(isAnotherSize ? Cancel::FirstPicture : Cancel::Slice, [&](Requests& requests) {
+    const bool isAnotherSize = std::exchange(sentSizes_[addressed_], request.size) != request.size;
+    noteMotion();
+    post(isAnotherSize ? Cancel::FirstPicture : Cancel::Slice, [&](Requests& requests) {
         requests.request = request;
         noteChange(requests);
     });
 }
 
 void InteractiveSession::moveCamera(const scene::CameraDesc& camera, std::uint64_t sceneSerial) {
-    mailbox_.post(Cancel::Slice, [&](Requests& requests) {
+    noteMotion();
+    post(Cancel::Slice, [&](Requests& requests) {
         requests.camera.emplace(sceneSerial, camera);
         noteChange(requests);
     });
 }
 
 SessionState InteractiveSession::state() const {
-    SessionState state = state_.copy();
+    SessionState state = at().state.copy();
     if (const auto loading = loader_.busyWith(); loading && state.stage.empty()) state.stage = "Loading " + *loading;
     return state;
 }

@@ -1,15 +1,18 @@
-// A render that a window watches and steers. The engine lives on a thread of its own; the window posts what it wants
-// and reads what there is, and neither waits for the other.
+// A render that a window watches and steers, in one viewport or several of one scene. The engines live on a thread of
+// their own; the window posts what it wants and reads what there is, and neither waits for the other.
 #pragma once
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "Common/App/Interactive/InteractiveState.h"
-#include "Common/App/Interactive/Mailbox.h"
-#include "Common/App/Interactive/PublishedState.h"
+#include "Common/App/Interactive/Viewport.h"
 #include "Common/App/Session/SceneLoader.h"
 
 namespace rt::app {
@@ -21,6 +24,17 @@ class InteractiveSession {
     ~InteractiveSession(); // as close()
     InteractiveSession(const InteractiveSession&) = delete;
     InteractiveSession& operator=(const InteractiveSession&) = delete;
+
+    // Viewports, of which there is one at first. Requests, and state(), are of the one that is addressed, but for what
+    // concerns the scene. They take turns, each for the same time; while the user changes what the one with the focus
+    // shows, that one alone is rendered.
+    ViewportId addressed() const { return addressed_; }
+    void address(ViewportId viewport) { addressed_ = viewport; }
+    void setFocus(ViewportId viewport) { board_.setFocus(viewport); }
+    // Another one of the present scene, which is to be there and not on its way to be another.
+    ViewportId openViewport(const RenderRequest& request, const EngineChoice& engine, const scene::CameraDesc& camera,
+                            bool preview);
+    void closeViewport(ViewportId viewport); // frees its engine and its film; not the last one, nor the addressed one
 
     // Requests. None of them waits; the last of a kind counts.
     void open(const std::string& source);
@@ -35,7 +49,7 @@ class InteractiveSession {
     void nameEdited(const std::string& file); // which the edited scene has been saved to
     void change(const RenderRequest& request);
     void choose(const EngineChoice& engine) {
-        mailbox_.post(Cancel::Build, [&](Requests& requests) { requests.engine = engine; });
+        post(Cancel::Build, [&](Requests& requests) { requests.engine = engine; });
     }
     void moveCamera(const scene::CameraDesc& camera,
                     std::uint64_t sceneSerial);               // ignored if the scene is another by now
@@ -47,54 +61,54 @@ class InteractiveSession {
     void stop();
     void reset() { post(Cancel::FirstPicture, Command::Reset); } // begins anew
     void save(SaveRequest request) {                             // where a picture is yet to come, once it is there
-        mailbox_.post(Cancel::Nothing, [&](Requests& requests) { requests.saves.push_back(std::move(request)); });
+        post(Cancel::Nothing, [&](Requests& requests) { requests.saves.push_back(std::move(request)); });
     }
     void view(const ViewRequest& view) {
-        mailbox_.post(Cancel::Slice, [&](Requests& requests) { requests.view = view; });
+        post(Cancel::Slice, [&](Requests& requests) { requests.view = view; });
     }
     // Shows the preview instead of the film, where the engine has one; rays rest meanwhile, and the film goes on
     // afterwards unless something that concerns it has changed.
     void preview(bool on) {
-        mailbox_.post(Cancel::FirstPicture, [on](Requests& requests) { requests.preview = on; });
+        post(Cancel::FirstPicture, [on](Requests& requests) { requests.preview = on; });
     }
     // Pixels that a row of the preview is drawn with, so that it suits the window; 0: as many as the picture has. The
     // height follows. Files get the picture's size.
     void previewWidth(std::uint32_t width) {
-        mailbox_.post(Cancel::Nothing, [width](Requests& requests) { requests.previewWidth = width; });
+        post(Cancel::Nothing, [width](Requests& requests) { requests.previewWidth = width; });
     }
     // The image that errors are taken against: rendered with the present scene, camera and size, or read from a linear
     // image file of the present size. Stop gives a render up, and what was the reference before stays.
     void renderReference(std::uint32_t spp) {
-        mailbox_.post(Cancel::FirstPicture, [spp](Requests& requests) { requests.referenceSpp = spp; });
+        post(Cancel::FirstPicture, [spp](Requests& requests) { requests.referenceSpp = spp; });
     }
     void loadReference(const std::string& file) {
-        mailbox_.post(Cancel::Nothing, [&](Requests& requests) { requests.referenceFile = file; });
+        post(Cancel::Nothing, [&](Requests& requests) { requests.referenceFile = file; });
     }
     // Races the entrants in the present view, each for the same time; the film rests meanwhile. What changes the view
     // or goes on with the film ends it.
     void race(const RaceRequest& request) {
-        mailbox_.post(Cancel::Slice, [&](Requests& requests) { requests.race = request; });
+        post(Cancel::Slice, [&](Requests& requests) { requests.race = request; });
     }
     void stopRace() { endRace(Requests::RaceEnd::Stop); }   // what it has measured stays, and its picture is shown
     void leaveRace() { endRace(Requests::RaceEnd::Leave); } // the film comes back
     void showInRace(std::optional<std::size_t> entrant) {   // none: who leads
-        mailbox_.post(Cancel::Slice, [entrant](Requests& requests) { requests.raceShown = entrant; });
+        post(Cancel::Slice, [entrant](Requests& requests) { requests.raceShown = entrant; });
     }
     // Finds the focus distance for what is seen in a pixel: the state tells.
     void pickFocus(std::uint32_t x, std::uint32_t y) {
-        mailbox_.post(Cancel::Slice, [x, y](Requests& requests) { requests.focus = {x, y}; });
+        post(Cancel::Slice, [x, y](Requests& requests) { requests.focus = {x, y}; });
     }
     // Whether the user has hold of something that changes the film, as of the camera: films that end meanwhile are runs
     // of the history only if they are still seen when it is let go.
     void hold(bool isHeld) {
-        mailbox_.post(Cancel::Nothing, [isHeld](Requests& requests) { requests.held = isHeld; });
+        if (addressed_ == board_.focus()) board_.setHeld(isHeld);
+        post(Cancel::Nothing, [isHeld](Requests& requests) { requests.held = isHeld; });
     }
-    // What is to be written once, when the first render ends by itself or by stop(), or in close() before that.
-    void writeAtEnd(const SaveRequest& request) {
-        mailbox_.post(Cancel::Nothing, [&](Requests& requests) { requests.atEnd = request; });
-    }
+    // What is to be written once, when the first render of the first viewport ends by itself or by stop(), or before
+    // that in closeViewport() or close().
+    void writeAtEnd(const SaveRequest& request);
     // How the window has answered so far, for the statistics.
-    void tell(const WindowFigures& figures) { state_.tell(figures); }
+    void tell(const WindowFigures& figures);
 
     // Ends the render and its thread, within 100 ms but for what the engine is building. Returns how it went with
     // the files of writeAtEnd(). Nothing but state() may be called any more.
@@ -105,18 +119,29 @@ class InteractiveSession {
   private:
     void dropScenes();
     void endRace(Requests::RaceEnd end) {
-        mailbox_.post(Cancel::Build, [end](Requests& requests) { requests.raceEnd = end; });
+        post(Cancel::Build, [end](Requests& requests) { requests.raceEnd = end; });
     }
     using Command = Requests::Command;
     void post(Cancel cancel, Command command) {
-        mailbox_.post(cancel, [command](Requests& requests) { requests.command = command; });
+        post(cancel, [command](Requests& requests) { requests.command = command; });
     }
+    void post(Cancel cancel, const std::function<void(Requests&)>& change);
+    void postToAll(Cancel cancel, const std::function<void(Requests&)>& change);
+    void hand(LoadedScene loaded);
+    void noteMotion();
+    ViewportId add(Setup setup);
+    std::vector<std::shared_ptr<Viewport>> viewports() const;
+    std::shared_ptr<Viewport> viewport(ViewportId id) const;
+    Viewport& at() const { return *viewport(addressed_); }
 
     Setup setup_;
-    SizeRequest sentSize_;
-    Mailbox mailbox_;
-    PublishedState state_;
-    SceneLoader loader_; // its thread posts to the mailbox
+    mutable std::mutex mutex_; // guards the list: the loader's thread reads it
+    std::vector<std::shared_ptr<Viewport>> viewports_;
+    ViewportId lastId_ = 0, addressed_ = 0;
+    std::map<ViewportId, SizeRequest> sentSizes_;
+    ViewportBoard board_;
+    std::uint64_t reads_ = 0; // of scenes from their sources; of the loader's thread
+    SceneLoader loader_;      // its thread posts to mailboxes
     EndFiles endFiles_;
     std::thread thread_;
 };

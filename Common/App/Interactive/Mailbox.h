@@ -2,7 +2,6 @@
 #pragma once
 #include <array>
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -67,19 +66,25 @@ enum class Cancel {
 
 class Mailbox {
   public:
+    // `onPost` is called after each request, on the thread that posts it; may be empty.
+    explicit Mailbox(std::function<void()> onPost = {}) : onPost_(std::move(onPost)) {}
+
     // On any thread.
     void post(Cancel cancel, const std::function<void(Requests&)>& change);
+    void interrupt(Cancel cancel); // as a request that asks for nothing: what is cancelled begins or goes on afterwards
 
-    // On the session's thread: what was asked for since the last time. Waits until there is something, if so wanted.
-    Requests take(bool wait);
+    // On the session's thread: what was asked for since the last time.
+    Requests take();
+    bool hasRequests() const;
+    bool isAskedToQuit() const;
     // Whether take() would return a camera and nothing else.
     bool moveCameraAlone() const;
     // True from a request that cancels this until it is taken.
     const std::atomic<bool>& cancelled(Cancel what) const { return cancelled_[static_cast<std::size_t>(what)]; }
 
   private:
+    std::function<void()> onPost_;
     mutable std::mutex mutex_; // guards the requests
-    std::condition_variable wake_;
     Requests requests_;
     std::array<std::atomic<bool>, 4> cancelled_{};
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "Common/App/Interactive/TurnTaking.h"
 #include "Common/Render/Names.h"
 
 namespace rt::app {
@@ -41,7 +42,7 @@ std::string threeDigits(double value) {
 
 } // namespace
 
-std::vector<std::string> namesOf(const std::vector<RaceEntrant>& entrants, bool isGpu) {
+std::vector<std::string> namesOf(const std::vector<RaceEntrant>& entrants, bool isGpu, const std::string& noun) {
     std::vector<std::string> names(entrants.size());
     const auto differ = [&entrants](auto value) {
         return std::any_of(entrants.begin(), entrants.end(),
@@ -75,7 +76,7 @@ std::vector<std::string> namesOf(const std::vector<RaceEntrant>& entrants, bool 
     const std::vector<std::string> alike = names;
     for (std::size_t i = 0; i < names.size(); ++i)
         if (names[i].empty() || std::count(alike.begin(), alike.end(), alike[i]) > 1)
-            names[i] = "Entrant " + std::to_string(i + 1) + (alike[i].empty() ? "" : " (" + alike[i] + ")");
+            names[i] = noun + " " + std::to_string(i + 1) + (alike[i].empty() ? "" : " (" + alike[i] + ")");
     return names;
 }
 
@@ -89,12 +90,10 @@ Race::Race(const RaceRequest& request, bool isGpu) : looks_(request.entrants.siz
 }
 
 std::optional<std::size_t> Race::next() const {
-    std::optional<std::size_t> next;
-    for (std::size_t i = 0; i < lanes_.size(); ++i) {
-        if (lanes_[i].entrant.isOther || lanes_[i].isOut || secondsLeft(i) <= 0) continue;
-        if (!next || lanes_[i].seconds < lanes_[*next].seconds) next = i;
-    }
-    return next;
+    const auto isWaiting = [this](std::size_t i) {
+        return !lanes_[i].entrant.isOther && !lanes_[i].isOut && secondsLeft(i) > 0;
+    };
+    return leastServed(lanes_.size(), isWaiting, [this](std::size_t i) { return lanes_[i].seconds; });
 }
 
 double Race::secondsLeft(std::size_t entrant) const {

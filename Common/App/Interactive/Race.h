@@ -30,7 +30,8 @@ struct RaceRequest {
 };
 
 // By what tells each from the others: "MIS (power heuristic), denoised". Those that are alike are numbered.
-std::vector<std::string> namesOf(const std::vector<RaceEntrant>& entrants, bool isGpu);
+std::vector<std::string> namesOf(const std::vector<RaceEntrant>& entrants, bool isGpu,
+                                 const std::string& noun = "Entrant");
 
 // An entrant and how far it is.
 struct RaceLane {

@@ -37,7 +37,10 @@ void SceneEditor::end() {
 void SceneEditor::follow(const SessionState& state) {
     source_ = state.source;
     moment_ = state.moment;
-    if (std::exchange(sceneReads_, state.sceneReads) != state.sceneReads) end();
+    if (state.sceneReads > sceneReads_) { // of several viewports some come to a scene later than others
+        sceneReads_ = state.sceneReads;
+        end();
+    }
     if (isThere(saving_)) {
         try {
             saved_ = saving_.get();

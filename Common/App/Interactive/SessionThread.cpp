@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "Common/App/Interactive/FilmFiles.h"
-#include "Common/App/Platform.h"
 #include "Common/App/Session/Reference.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
@@ -27,27 +26,28 @@ SessionThread::SessionThread(const SessionSetup& setup, Mailbox& mailbox, Publis
     film_.publisher.setView(view);
 }
 
-EndFiles SessionThread::run() {
-    lowerThreadPriority();
-    while (true) {
-        Requests requests = mailbox_.take(!hasWork() && !isRetrying());
-        if (requests.atEnd) atEnd_ = requests.atEnd;
-        if (requests.quit) break;
-        try {
-            // While nothing but the camera moves, draft follows draft. All else wants the film that belongs to the last
-            // one.
-            if (isReady() && !requests.moveCameraAlone()) film_.beginPostponed(subject());
-            apply(std::move(requests));
-            if (hasWork()) isRacing() ? renderRace() : isPreviewing() ? renderPreview() : renderFilm();
-        } catch (const Interrupted&) { // by a request that comes next
-            state_.setStage("");
-        } catch (...) {
-            state_.fail(std::current_exception());
-            state_.setStage("");
-            setActivity(Activity::Failed);
-            film_.beginAnew(); // but is kept until another engine takes over
-        }
+bool SessionThread::step() {
+    Requests requests = mailbox_.take();
+    if (requests.atEnd) atEnd_ = requests.atEnd;
+    if (requests.quit) return false;
+    try {
+        // While nothing but the camera moves, draft follows draft. All else wants the film that belongs to the last
+        // one.
+        if (isReady() && !requests.moveCameraAlone()) film_.beginPostponed(subject());
+        apply(std::move(requests));
+        if (hasFilmWork()) isRacing() ? renderRace() : isPreviewing() ? renderPreview() : renderFilm();
+    } catch (const Interrupted&) { // by a request that comes next
+        state_.setStage("");
+    } catch (...) {
+        state_.fail(std::current_exception());
+        state_.setStage("");
+        setActivity(Activity::Failed);
+        film_.beginAnew(); // but is kept until another engine takes over
     }
+    return true;
+}
+
+EndFiles SessionThread::end() {
     for (const SaveRequest& save : std::exchange(waiting_, {})) write(save);
     writeEnd(activity_ == Activity::Failed ? StopReason::Failure : StopReason::Interrupted);
     return endFiles_;
@@ -182,7 +182,7 @@ void SessionThread::adopt(LoadedScene loaded) {
         state.sourceMark = loaded_.mark;
         state.seconds.load = loaded_.seconds;
         ++state.sceneLoads;
-        state.sceneReads += loaded_.request.edits == 0 ? 1 : 0;
+        state.sceneReads = loaded_.reads;
         state.sceneEdits = loaded_.request.edits;
         state.sceneSerial = sceneSerial_;
     });

@@ -1,5 +1,5 @@
-// The thread of a window's session: it alone has the engine, and strings together what was asked for, the film, its
-// pictures, its reference and its files.
+// What the session's thread does for one viewport: it alone has the engine, and strings together what was asked for, the
+// film, its pictures, its reference and its files.
 #pragma once
 #include <memory>
 #include <optional>
@@ -17,8 +17,12 @@ class SessionThread {
   public:
     SessionThread(const SessionSetup& setup, Mailbox& mailbox, PublishedState& state, SceneLoader& loader);
 
-    // Until it is asked to quit. Returns how it went with the files of the end.
-    EndFiles run();
+    // Does what was asked for, then a little of the work that there is. False: it was asked to quit, and has not done
+    // that; end() is to come.
+    bool step();
+    EndFiles end(); // how it went with the files of the end
+    bool hasWork() const { return isRetrying() || hasFilmWork(); }
+    bool isRacing() const { return race_ && race_->isRunning(); }
 
   private:
     // What was asked for.
@@ -37,8 +41,7 @@ class SessionThread {
     bool isActive() const { return activity_ == Activity::Rendering; }
     bool isPreviewing() const { return previewIsWanted_ && engine_ && engine_->canPreview(); }
     bool isRetrying() const { return waitingEngine_ || waitingScene_; }
-    bool isRacing() const { return race_ && race_->isRunning(); }
-    bool hasWork() const {
+    bool hasFilmWork() const {
         if (!isReady() || isRaceShown_) return isReady() && isRacing();
         return isPreviewing() ? previewIsStale_ : isActive() || film_.isRefining() || film_.isFiltering();
     }

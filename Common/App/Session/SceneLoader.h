@@ -24,6 +24,7 @@ struct LoadedScene {
     SceneRequest request;
     std::optional<FileFingerprint> mark; // of its file, as it was before it was read
     double seconds = 0;
+    std::uint64_t reads = 0; // of scenes from their sources, this one included; counted by who shows them
 };
 
 class SceneLoader {

@@ -56,7 +56,9 @@ ChipLayout placeChips(const Gui& gui, const Rect& area, float scale) {
     const float left = area.x + border, right = area.x + area.width - border;
     ChipLayout layout;
     ImVec2 at{left, area.y + border};
-    for (std::string& text : chipTexts(gui.state, gui.isGpu, gui.settings.showPanels)) {
+    std::vector<std::string> texts = chipTexts(gui.state, gui.isGpu, gui.settings.showPanels);
+    if (!gui.viewportName.empty()) texts.insert(texts.begin() + 1, gui.viewportName);
+    for (std::string& text : texts) {
         const float width = chipWidth(text, layout.chips.empty());
         if (left + width > right) continue;
         if (at.x + width > right) at = {left, at.y + kHeight * em + gap};

@@ -24,12 +24,13 @@ struct Size {
     double bytes() const { return kPixelBytes * pixels(); }
 };
 
-// Of an image of this aspect ratio whose memory leaves half of the machine's to others: one digit too many is not to
+// Of an image of this aspect ratio whose memory, with that of other viewports, leaves half of the machine's to others: one digit too many is not to
 // end the program.
-std::uint32_t maxWidth(double aspect) {
+std::uint32_t maxWidth(const Gui& gui, double aspect) {
     const double minimum = 1024, side = image::kMaxImageSide * std::min(1.0, aspect);
-    const double pixels = 0.5 * static_cast<double>(app::machineBytes()) / kPixelBytes;
-    if (pixels == 0) return image::kMaxImageSide;
+    const double all = 0.5 * static_cast<double>(app::machineBytes()) / kPixelBytes;
+    const double pixels = std::max(0.0, all - gui.otherPixels);
+    if (all == 0) return image::kMaxImageSide;
     return static_cast<std::uint32_t>(std::clamp(std::sqrt(pixels * aspect), minimum, std::max(minimum, side)));
 }
 
@@ -64,7 +65,8 @@ Size sizeOf(const Gui& gui, const app::SizeRequest& request) {
 // At once, or after a question where it is large and larger than what there is.
 void wish(Gui& gui, app::SizeRequest request) {
     const Size size = sizeOf(gui, request), now{gui.state.settings.width, gui.state.settings.height};
-    const bool isAsked = size.bytes() > kAskedBytes && size.bytes() > now.bytes();
+    const bool isMuch = size.bytes() + kPixelBytes * gui.otherPixels > kAskedBytes;
+    const bool isAsked = isMuch && size.bytes() > now.bytes();
     gui.askedSize = isAsked ? std::optional(request) : std::nullopt;
     if (!isAsked) gui.settings.request.size = request;
 }
@@ -93,7 +95,7 @@ void drawWidthAndHeight(Gui& gui) {
     const app::RenderSettings& film = gui.state.settings;
     const double aspect = filmAspect(film);
     const Size now{film.width, film.height};
-    const std::uint32_t maxHere = std::max(film.width, maxWidth(aspect));
+    const std::uint32_t maxHere = std::max(film.width, maxWidth(gui, aspect));
     const auto tip = [&](const char* other, std::uint32_t maximum) {
         return std::string("Pixels; the ") + other + " follows from the aspect ratio. At most " +
                std::to_string(maximum) + " here: a side has " + std::to_string(image::kMaxImageSide) +
@@ -159,14 +161,43 @@ void drawAspect(Gui& gui) {
         request.aspect.reset();
         if (aspect.value > 0) {
             request.aspect = aspect.value;
-            request.width = std::min(*request.width, maxWidth(aspect.value));
+            request.width = std::min(*request.width, maxWidth(gui, aspect.value));
         }
         wish(gui, request);
     }
     ImGui::EndCombo();
 }
 
+// In as many viewports of the present size as there will be more.
+double viewportPixels(const Gui& gui, std::size_t count) {
+    const Size now{gui.state.settings.width, gui.state.settings.height};
+    const std::size_t more = count > gui.viewportCount() ? count - gui.viewportCount() : 0;
+    return gui.otherPixels + static_cast<double>(more + 1) * now.pixels();
+}
+
 } // namespace
+
+void wishViewports(Gui& gui, std::size_t count) {
+    gui.askedViewports.reset();
+    if (count <= gui.viewportCount() || kPixelBytes * viewportPixels(gui, count) <= kAskedBytes) {
+        gui.wantedViewports = count;
+        return;
+    }
+    gui.askedViewports = count;
+    gui.settings.showPanels = gui.settings.openPanels["view"] = true; // where it is asked
+    gui.revealPanel = "view";
+}
+
+void drawViewportQuestion(Gui& gui) {
+    if (!gui.askedViewports) return;
+    const double bytes = kPixelBytes * viewportPixels(gui, *gui.askedViewports);
+    wrapped(std::to_string(*gui.askedViewports) + " pictures of this size take about " +
+                bytesText(static_cast<std::uint64_t>(bytes)) + " of memory.",
+            noticeColor(gui.settings.colorMode));
+    if (button("Open them", nullptr, true)) gui.wantedViewports = *std::exchange(gui.askedViewports, std::nullopt);
+    besideIfItFits(buttonWidth("Keep what there is"));
+    if (button("Keep what there is", nullptr, true)) gui.askedViewports.reset();
+}
 
 void drawImageSize(Gui& gui) {
     drawWidthAndHeight(gui);

@@ -1,5 +1,6 @@
 #include <string>
 
+#include "Common/Gui/Panels/ImageSize.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Widgets.h"
 
@@ -50,6 +51,23 @@ void drawSplit(Gui& gui) {
     explainDisabled();
 }
 
+void drawViewports(Gui& gui) {
+    constexpr app::Named<std::size_t> kCounts[] = {{"1", 1, "1", "The picture alone: that with the focus stays"},
+                                                   {"2", 2, "2, side by side"},
+                                                   {"4", 4, "4, two rows of two"}};
+    std::size_t count = gui.viewportCount();
+    if (combo(
+            "Viewports",
+            "Pictures of the scene beside each other, each with its settings, view and exposure, and an engine of its "
+            "own. They take turns of equal time (F6; F7 or a press gives one the focus)",
+            kCounts, count))
+        wishViewports(gui, count);
+    drawViewportQuestion(gui);
+    const Disabled alone(gui.viewportCount() == 1, "there is one viewport");
+    checkbox("Link cameras", "All viewports show the scene from where the one with the focus does (L)",
+             gui.settings.linkCameras);
+}
+
 } // namespace
 
 void drawViewPanel(Gui& gui) {
@@ -72,6 +90,7 @@ void drawViewPanel(Gui& gui) {
     checkbox("Pixel grid", "Lines between pixels, from 800 % on", gui.showGrid);
     checkbox("Histogram", "Of the picture's luminance", gui.showHistogram);
     if (gui.showHistogram) drawHistogram(gui);
+    drawViewports(gui);
 }
 
 } // namespace rt::gui
