@@ -39,7 +39,8 @@ class ViewportsTest : public WindowTest {
         return stored.contains("viewports") ? stored["viewports"].size() : 0;
     }
 };
-INSTANTIATE_TEST_SUITE_P(, ViewportsTest, kBothPrograms, nameOfProgram);
+INSTANTIATE_TEST_SUITE_P(, ViewportsTest, kFirstProgram, nameOfProgram);
+INSTANTIATE_TEST_SUITE_P(Nightly, ViewportsTest, kSecondProgram, nameOfProgram);
 
 TEST_P(ViewportsTest, TwoHaveSettingsAndCamerasOfTheirOwnAndOneScene) {
     startWithBall();

@@ -71,7 +71,7 @@ ViewportId InteractiveSession::add(Setup setup) {
     auto viewport = std::make_shared<Viewport>(id, std::move(setup), [this] { board_.ring(); });
     viewport->mailbox.post(Cancel::Nothing, [&](Requests& requests) { requests.engine = viewport->setup.engine; });
     // Pictures of two of them are told apart by their serials.
-    viewport->state.update([id](SessionState& state) { state.picture.serial = std::uint64_t{id} << 32; });
+    viewport->state.update([id](SessionState& state) { state.picture.serial = std::uint64_t{id - 1} << 32; });
     {
         const std::scoped_lock lock(mutex_);
         viewports_.push_back(viewport);

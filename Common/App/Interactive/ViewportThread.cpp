@@ -63,7 +63,8 @@ std::optional<std::size_t> ViewportThread::next(double secondsToRest) {
 
 // Its engine and its film go.
 void ViewportThread::close(std::size_t place) {
-    const EndFiles files = places_[place].thread->end();
+    Place leaving = std::move(places_[place]); // its thread goes before what that uses
+    const EndFiles files = leaving.thread->end();
     endFiles_.hasFilm = endFiles_.hasFilm && files.hasFilm;
     endFiles_.failures.insert(endFiles_.failures.end(), files.failures.begin(), files.failures.end());
     places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(place));
