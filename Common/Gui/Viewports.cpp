@@ -226,7 +226,9 @@ void Viewports::handlePointer() {
         return;
     }
     const bool isPress = io.MouseClicked[0] || io.MouseClicked[1] || io.MouseClicked[2] || io.MouseWheel != 0;
-    if (!isFree || !isPress) return;
+    // A material that is let go above a picture, or a file, is for what is seen there.
+    const bool isDrop = (gui_.materials.dragged && !io.MouseDown[0]) || !gui_.materials.droppedFile.empty();
+    if (!isDrop && (!isFree || !isPress)) return;
     for (std::size_t i = 0; i < count(); ++i)
         if (areas_[i].contains(mouse.x, mouse.y)) // what is typed is read in the next frame
             io.WantTextInput ? void(coming_ = i) : setFocus(i);
