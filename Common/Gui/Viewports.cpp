@@ -214,7 +214,6 @@ void Viewports::handlePointer() {
     app::GuiSettings& settings = gui_.settings;
     const Splits splits{settings.splitX, settings.splitY};
     if (coming_) setFocus(*std::exchange(coming_, std::nullopt));
-    if (!io.MouseDown[0]) splitter_ = {};
     const bool isFree = !io.WantCaptureMouse && !gui_.editing.tool;
     hovered_ = isFree ? splitterAt(all_, count(), splits, gap_, mouse.x, mouse.y) : Splitter{};
     if (hovered_ && io.MouseClicked[0]) splitter_ = hovered_;
@@ -223,6 +222,7 @@ void Viewports::handlePointer() {
         settings.splitX = moved.x;
         settings.splitY = moved.y;
         areas_ = splitAreas(all_, count(), moved, gap_);
+        if (!io.MouseDown[0]) splitter_ = {}; // where it is by then: a slow frame sees the way and its end at once
         return;
     }
     const bool isPress = io.MouseClicked[0] || io.MouseClicked[1] || io.MouseClicked[2] || io.MouseWheel != 0;
