@@ -57,7 +57,8 @@ ChipLayout placeChips(const Gui& gui, const Rect& area, float scale) {
     ChipLayout layout;
     ImVec2 at{left, area.y + border};
     std::vector<std::string> texts = chipTexts(gui.state, gui.isGpu, gui.settings.showPanels);
-    if (!gui.viewportName.empty()) texts.insert(texts.begin() + 1, gui.viewportName);
+    if (!gui.viewportName.empty()) // which is never left out
+        texts.insert(texts.begin() + 1, elided(gui.viewportName, right - left - 2 * kPadding * em));
     for (std::string& text : texts) {
         const float width = chipWidth(text, layout.chips.empty());
         if (left + width > right) continue;
