@@ -9,6 +9,8 @@
 namespace rt::app {
 namespace {
 
+constexpr ViewportId kFirstViewport = 1;
+
 void noteChange(Requests& requests) {
     if (!requests.changed) requests.changed.emplace();
 }
@@ -190,7 +192,8 @@ void InteractiveSession::nameEdited(const std::string& file) {
 
 void InteractiveSession::writeAtEnd(const SaveRequest& request) {
     const auto first = viewports().front();
-    if (first->setup.atEnd) first->mailbox.post(Cancel::Nothing, [&](Requests& requests) { requests.atEnd = request; });
+    if (first->id != kFirstViewport) return; // that one is closed, and they are written
+    first->mailbox.post(Cancel::Nothing, [&](Requests& requests) { requests.atEnd = request; });
 }
 
 void InteractiveSession::tell(const WindowFigures& figures) {
