@@ -34,7 +34,7 @@ rt_module(scene rt-scene Common/Scene Affine Boxed Builtin/BuiltinScenes Builtin
           MaterialX/MaterialXLoader MaterialX/MaterialXWriter Moment Obj/ObjLoader
           Origins Pbrt/PbrtLoader SceneDesc Silhouettes Studio)
 rt_module(render rt-render Common/Render Engine FilmEstimate FilmRun ForwardingEngine Names PictureDenoiser Progress
-          RenderParams Settings Stopwatch)
+          RenderParams Settings ShutterEngine Stopwatch)
 rt_module(cpu rt-cpu RayTracingCPU CpuEngine)
 # Of these only what the GPU engine is made with.
 rt_module(vulkan rt-vulkan Common/Vulkan Barrier DeviceMemory DeviceSelection FreeList Handle Instance Submission

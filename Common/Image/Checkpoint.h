@@ -30,8 +30,8 @@ Checkpoint readCheckpoint(std::istream& in, const std::string& name);
 inline constexpr const char* kSecondsField = "seconds";
 
 // Choices that earlier programs did not have and checkpoints of theirs do not tell of: connections, split camera rays,
-// paths that pixels share.
-inline constexpr const char* kLaterFields[] = {"specular_connections", "edge_rays", "path_reuse"};
+// paths that pixels share, motion blur.
+inline constexpr const char* kLaterFields[] = {"specular_connections", "edge_rays", "path_reuse", "shutter"};
 
 // Adds those that are missing, as "off", to what the caller compares, and returns their names.
 std::vector<std::string> addLaterFields(nlohmann::json& render);

@@ -79,6 +79,13 @@ struct EngineRate {
     double raysPerSecond = 0;
 };
 
+// What motion blur has come from, see ShutterEngine.h.
+struct ShutterFigures {
+    double open = 0, close = 0; // seconds of the animation
+    std::uint32_t poses = 0;    // of the scene that samples were taken of, since the engine was made
+    double poseSeconds = 0;     // that posing it has taken
+};
+
 struct EngineReport {
     std::string engine;        // "multi", "single", "pipeline", "compute", "query"
     std::string device;        // processor or Vulkan device
@@ -98,7 +105,8 @@ struct EngineReport {
     std::string lightSampling;      // what `auto` came to, e.g. "sphere: cone, quad: solid-angle"
     std::vector<EngineRate> rates;  // by which the engine was chosen; empty: it was named, or there was no choice
     bool ratesAreOfBefore = false;  // another run has measured them
-    std::vector<ShaderFigure> shaders; // of the kernel; empty unless asked for
+    std::vector<ShaderFigure> shaders;     // of the kernel; empty unless asked for
+    std::optional<ShutterFigures> shutter; // none: the picture is of one instant
 
     // By how much max depth has darkened the picture where light comes from everywhere.
     double cutOffShare() const { return rays.camera > 0 ? cutOff / static_cast<double>(rays.camera) : 0; }

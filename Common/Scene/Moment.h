@@ -1,4 +1,4 @@
-// Which moment of which animation a scene is posed at.
+// Which moment of which animation a scene is posed at, and for how long light is gathered.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -14,7 +14,16 @@ namespace rt::scene {
 struct Moment {
     std::string animation = {}; // by name; empty: the first
     double time = 0;            // seconds
-    bool operator==(const Moment&) const = default;
+    bool isAsked = false;       // somebody has said so, be it the start of the first one, and need not be told of it
+    friend bool operator==(const Moment& a, const Moment& b) { return a.animation == b.animation && a.time == b.time; }
+};
+
+// While light is gathered: seconds relative to the moment, which may lie anywhere.
+struct Shutter {
+    double open = 0, close = 0;
+    bool operator==(const Shutter&) const = default;
+    bool isOpen() const { return open < close; } // or the picture is of one instant
+    double middle() const { return open + (close - open) / 2; }
 };
 
 // Which of a scene's animations is meant; none where there are none. Throws UsageError naming those that there are.

@@ -27,6 +27,11 @@ bug 'weight of rays in a part of a pixel' EdgeRays.h 's/part\.size\.x \* part\.s
 bug 'light in a glossy mirror counted twice' EdgeRayPaths.h 's/return kEmissionApartBehindGlossy;/return kEmissionWeighed;/' image.EdgeRays
 bug 'direct light through a medium' DirectLight.h 's/return transmittance\(depth\);/return transmittance(0.5f * depth);/' image.Transmittance
 
+bug 'a shutter that does not open' ShutterEngine.cpp 's/share \* \(close_ - open_\)/0.5 * (close_ - open_)/' image.Shutter
+bug 'replicates that share their times' ShutterEngine.cpp 's/hash3\(\{seed, replicate, kTimeKey/hash3({seed, 0u, kTimeKey/' image.Shutter
+bug 'replicates of one seed' ShutterEngine.cpp 's/settings\.seed = shared::hash3\(\{settings_\.seed, replicate, kSeedKey\}\)\.x/settings.seed = settings_.seed/' image.Shutter
+bug 'poses whose times leave a part of the shutter out' ShutterEngine.cpp 's/kDimensionTime\)\.x \* 0x1p-32/kDimensionTime).x * 0x1p-33/' unit.ShutterPoses
+
 # ---- materials, media, textures --------------------------------------------------------------------------------------
 bug 'density of rough metal' Metal.h 's/\(square\(cosine\) \+ square\(root\)\) \/ \(2\.0f/(square(cosine)) \/ (2.0f/' unit.Fuzz/MetalFuzz
 bug 'Fresnel reflectance' Dielectric.h 's/float parallel = \(c - eta \* t\)/float parallel = (c - t)/' unit.Dielectric

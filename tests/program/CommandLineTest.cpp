@@ -48,6 +48,8 @@ TEST_F(CommandLine, UsageErrors) {
     EXPECT_TRUE(failsWith(cpu({"--window", "--headless"}), 2, "--window"));
     const std::vector<std::pair<Arguments, std::string>> cases = {
         {{"--frames", "3"}, "--frames"},
+        {{"--shutter", "0.1"}, "--shutter"},
+        {{"--shutter", "0.2,0.1"}, "--shutter"},
         {{"cornell-box-lights"}, "cornell-box-lights"},
         {{"--spp", "0"}, "--spp 0: must be a whole number from 1 to 2147483647"},
         {{"--spp", "2147483648"}, "--spp 2147483648"},
@@ -177,6 +179,12 @@ TEST_F(CommandLine, ProgressGoesToStandardErrorOnly) {
     Arguments quiet = arguments;
     quiet.push_back("-q");
     EXPECT_EQ(cpu(quiet).err, "");
+}
+
+TEST_F(CommandLine, AShutterOfASceneThatStandsStillIsTold) {
+    const Outcome outcome = cpu({"--width", "8", "--spp", "1", "--shutter", "0,0.1", "-o", "a.png"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("--shutter counts for nothing"), std::string::npos) << outcome.err;
 }
 
 TEST_F(CommandLine, LogFile) {

@@ -88,6 +88,12 @@ TEST_F(Ranks, EachRendersItsShareOfASequence) {
         EXPECT_TRUE(bytesOf("ranks" + number) == bytesOf("alone" + number)) << number;
 }
 
+// Each would have to pose the scene for each of its leases.
+TEST_F(Ranks, RefuseToShareMotionBlurOfOnePicture) {
+    EXPECT_TRUE(
+        endsWith(mpirun(2, {"--headless", "--shutter", "0,0.1", "-o", "a.pfm"}), 2, "mpirun: not with --shutter"));
+}
+
 // What all other tests here, the benchmark and docs/many-machines.md count on: more ranks than processors, bound to none
 // of them, who know how many they are.
 TEST_F(Ranks, StartAsTheLauncherIsTold) {

@@ -66,6 +66,7 @@ TEST_F(FramesTest, WritesASequenceAndLeavesWhatIsThere) {
         return nlohmann::json::parse(bytesOfFile(path("out/" + name))).at("scene_hash").get<std::string>();
     };
     EXPECT_NE(hashOf("s.0000.json"), hashOf("s.0001.json"));
+    EXPECT_EQ(nlohmann::json::parse(bytesOfFile(path("out/s.0002.json"))).at("frame"), 2);
     // One of the files of frame 1 is missing: that frame alone is rendered again.
     fs::remove(path("out/a.0001.depth.pfm"));
     scene::GltfBuilder::write(path("out/a.0000.pfm"), "mine");
@@ -110,6 +111,18 @@ TEST_F(FramesTest, WhatItDoesNotGoTogetherWithIsRefused) {
         EXPECT_EQ(error<UsageError>({"--time", bad, "-o", "a.png"}).rfind("--time", 0), 0u) << bad;
     EXPECT_EQ(error<UsageError>({"--animation", "walk", "-o", path("a.png")}),
               "--animation walk: the scene has no animations");
+}
+
+// Who asks for a time, or for frames, knows that the scene moves, also where the time is its start.
+TEST_F(FramesTest, OnlyThoseWhoAskedForNoTimeAreToldThatThereAreOthers) {
+    const auto isTold = [this](const scene::Moment& moment) {
+        for (const std::string& notice : loadScene(movingTriangle(), moment).notices)
+            if (notice.find("--time poses it") != std::string::npos) return true;
+        return false;
+    };
+    EXPECT_TRUE(isTold(options({"-o", "a.png"}).moment));
+    EXPECT_FALSE(isTold(options({"--time", "0", "-o", "a.png"}).moment));
+    EXPECT_FALSE(isTold(optionsOfFrame(options({"--frames", "0..2", "-o", "a.png"}), 0).moment));
 }
 
 // The camera and the studio of a model that has neither stay where they are.

@@ -1,5 +1,6 @@
 #include "Common/App/Options/MotionFlags.h"
 
+#include <algorithm>
 #include <string>
 
 #include "Common/App/Options/OptionValues.h"
@@ -9,6 +10,7 @@ namespace rt::app {
 namespace {
 
 constexpr double kLongestTime = 1e9; // as the largest number of a scene
+constexpr const char* kShutterForm = "OPEN,CLOSE in seconds from -1e9 to 1e9, OPEN at most CLOSE, as 0,0.02";
 constexpr std::uint32_t kLastFrame = 9'999'999;
 
 FrameRange parseFrames(const std::string& flag, const std::string& text) {
@@ -20,6 +22,17 @@ FrameRange parseFrames(const std::string& flag, const std::string& text) {
     return range;
 }
 
+scene::Shutter parseShutter(const std::string& flag, const std::string& text) {
+    const std::size_t comma = text.find(',');
+    if (comma == std::string::npos) refuseValue(flag, text, kShutterForm);
+    const auto seconds = [&](const std::string& part) {
+        return parseReal(flag, part, -kLongestTime, kLongestTime, kShutterForm);
+    };
+    const scene::Shutter shutter{seconds(text.substr(0, comma)), seconds(text.substr(comma + 1))};
+    if (shutter.open > shutter.close) refuseValue(flag, text, kShutterForm);
+    return shutter;
+}
+
 } // namespace
 
 void addMotion(FlagSet& flags, Options& options) {
@@ -28,6 +41,7 @@ void addMotion(FlagSet& flags, Options& options) {
         .add("--time", "T", "seconds; poses an animated scene",
              [&options](const std::string& flag, const std::string& text) {
                  options.moment.time = parseReal(flag, text, 0, kLongestTime, "seconds from 0 to 1e9");
+                 options.moment.isAsked = true;
              })
         ->default_str("0");
     flags.add("--animation", "NAME", "which of the scene's animations; the first",
@@ -35,6 +49,15 @@ void addMotion(FlagSet& flags, Options& options) {
                   if (text.empty()) refuseValue(flag, text, "the name of one of the scene's animations");
                   options.moment.animation = text;
               });
+    flags
+        .add("--shutter", "OPEN,CLOSE",
+             "motion blur: light is gathered from OPEN to CLOSE, in seconds after --time, or before it where they are "
+             "below 0; the mean of many poses",
+             [&options](const std::string& flag, const std::string& text) {
+                 options.shutter = parseShutter(flag, text);
+             })
+        ->default_str("0,0")
+        ->configurable(false);
     flags
         .add("--frames", "A..B",
              "a sequence NAME.0001.EXT: frame N is N frames after --time; frames that are there stay, and one that was "
@@ -47,6 +70,23 @@ void addMotion(FlagSet& flags, Options& options) {
                  options.frameRate = parseReal(flag, text, 1e-3, 1e6, "frames a second, from 0.001 to 1e6");
              })
         ->default_str("24");
+}
+
+void settleInstant(Options& options) {
+    if (options.shutter == scene::Shutter() || options.shutter.isOpen()) return;
+    options.moment.time = std::max(options.moment.time + options.shutter.open, 0.0); // before which nothing moves
+    options.moment.isAsked = true;
+    options.shutter = {};
+}
+
+void settleShutter(Options& options) {
+    if (!options.frames) settleInstant(options);
+    if (!options.shutter.isOpen()) return;
+    if (options.isScripted) throw UsageError("--shutter: not in a script, whose scenes are of one instant");
+    if (options.command != Command::Render) throw UsageError("--shutter: only to render; --time poses a scene");
+    if (options.window) throw UsageError("--shutter: not with a window; use --output or --headless");
+    if (options.settings.adaptive)
+        throw UsageError("--adaptive on: not with --shutter, whose poses take equally many samples of all pixels");
 }
 
 void settleFrames(const FlagSet& flags, const Options& options) {

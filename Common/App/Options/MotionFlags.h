@@ -7,7 +7,11 @@ namespace rt::app {
 
 void addMotion(FlagSet& flags, Options& options);
 
-// What --frames goes together with. Throws UsageError.
+// A shutter that closes when it opens is a time, which the moment then has; of a sequence each frame has its own.
+void settleInstant(Options& options);
+
+// What --shutter and --frames go together with. Throw UsageError.
+void settleShutter(Options& options);
 void settleFrames(const FlagSet& flags, const Options& options);
 
 } // namespace rt::app

@@ -375,6 +375,7 @@ std::optional<Options> OptionParser::parse(std::vector<std::string> arguments, s
     settleDenoise(flags, parsed);
     settleErrorEstimate(parsed.options);
     settleFiles(parsed.options);
+    settleShutter(parsed.options);
     settleFrames(flags, parsed.options);
     settlePolicy(flags, parsed);
     settleValidation(parsed);

@@ -54,7 +54,9 @@ struct Options {
     std::string camera;                       // its pose as JSON; empty: the scene's
     std::string assetsBelow;                  // the folder that the scene's files must lie in; empty: anywhere
     scene::Moment moment;                     // at which an animated scene is posed
+    scene::Shutter shutter;                   // about that moment
     std::optional<FrameRange> frames;         // one picture, without a number
+    std::optional<std::uint32_t> frame;       // of such a sequence
     double frameRate = 24;                    // of frames, a second
     bool oneSidedLights = true;
     SizeRequest size;

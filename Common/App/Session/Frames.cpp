@@ -5,6 +5,7 @@
 #include <string>
 #include <system_error>
 
+#include "Common/App/Options/MotionFlags.h"
 #include "Common/App/Session/Outputs.h"
 
 namespace rt::app {
@@ -33,7 +34,10 @@ std::string numbered(const std::string& file, std::uint32_t frame) {
 Options optionsOfFrame(const Options& sequence, std::uint32_t frame) {
     Options options = sequence;
     options.frames.reset();
+    options.frame = frame;
     options.moment.time += frame / sequence.frameRate;
+    options.moment.isAsked = true;
+    settleInstant(options);
     for (std::string& output : options.outputs) output = numbered(output, frame);
     if (!options.stats.empty()) options.stats = numbered(options.stats, frame);
     options.checkpoint = checkpointBeside(options.outputs.front());

@@ -50,9 +50,13 @@ void noticeCutOff(std::uint32_t maxDepth, double share) {
 
 void RenderJob::load() {
     const Stopwatch watch;
-    auto scene = compile(
-        SceneRequest{options_.scene, options_.oneSidedLights, options_.camera, options_.assetsBelow, options_.moment});
+    const SceneRequest request{options_.scene, options_.oneSidedLights, options_.camera, options_.assetsBelow,
+                               options_.moment};
+    if (options_.shutter.isOpen()) poses_ = posesOf(request);
+    auto scene = poses_ ? poses_(options_.moment.time + options_.shutter.middle()) : compile(request);
     for (const std::string& notice : scene->notices) logWarning(scene->id + ": " + notice);
+    if (options_.shutter.isOpen() && !poses_)
+        logWarning(scene->id + ": nothing moves in it: --shutter counts for nothing");
     take(std::move(scene), 0);
     statistics_.seconds.load = watch.seconds();
 }
@@ -69,6 +73,11 @@ void RenderJob::take(std::shared_ptr<const scene::CompiledScene> scene, double s
 
 bool RenderJob::begin(std::unique_ptr<Engine> engine, const std::atomic<bool>& cancel) {
     engine_ = std::move(engine);
+    if (poses_) {
+        const double time = options_.moment.time;
+        const scene::Shutter& shutter = options_.shutter;
+        engine_ = makeShutterEngine(std::move(engine_), time + shutter.open, time + shutter.close, poses_);
+    }
     memoryForWriting_ = std::make_unique_for_overwrite<std::byte[]>(kMemoryForWriting);
     if (!engine_->setScene(scene_, &cancel)) return false;
     image::Film kept;

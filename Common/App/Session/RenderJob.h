@@ -14,6 +14,7 @@
 #include "Common/Image/Image.h"
 #include "Common/Render/Engine.h"
 #include "Common/Render/FilmRun.h"
+#include "Common/Render/ShutterEngine.h"
 #include "Common/Scene/CompiledScene.h"
 
 namespace rt::app {
@@ -57,6 +58,7 @@ class RenderJob {
 
     Options options_;
     std::shared_ptr<const scene::CompiledScene> scene_;
+    PoseScene poses_; // none: the picture is of one instant, or nothing moves
     std::optional<image::Image> reference_;
     std::unique_ptr<Engine> engine_;
     std::optional<FilmDenoiser> denoiser_;

@@ -31,6 +31,8 @@ Json argumentList(const Options& options, const scene::CameraDesc& camera, const
     add("--scene", options.scene);
     if (!options.moment.animation.empty()) add("--animation", options.moment.animation);
     if (options.moment.time != 0) add("--time", exactly(options.moment.time));
+    if (options.shutter.isOpen())
+        add("--shutter", exactly(options.shutter.open) + "," + exactly(options.shutter.close));
     add("--camera", CameraController::toText(camera));
     add("--width", std::to_string(s.width));
     add("--height", std::to_string(s.height));

@@ -1,6 +1,10 @@
 #include "Common/App/Session/Resume.h"
 
 #include <algorithm>
+#include <iomanip>
+#include <limits>
+#include <locale>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -28,6 +32,16 @@ Json toJson(const scene::CameraDesc& camera) {
             {"focus_distance", camera.focusDistance}};
 }
 
+// "0.5,0.52" s of the animation.
+std::string shutterText(const EngineReport& report) {
+    if (!report.shutter) return "off";
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << std::setprecision(std::numeric_limits<double>::max_digits10) << report.shutter->open << ','
+         << report.shutter->close;
+    return text.str();
+}
+
 // Everything that the samples of a pixel depend on, in the order in which a difference is best explained.
 Json identity(const RenderSettings& settings, const scene::CompiledScene& scene, const EngineReport& report) {
     Json json = {{"engine", report.threads > 0 ? "cpu" : report.engine}, // threads and policies make no difference
@@ -40,6 +54,7 @@ Json identity(const RenderSettings& settings, const scene::CompiledScene& scene,
                           const auto& value) { json[key] = nameOf(table, value); },
                   settings);
     json["russian_roulette"] = settings.russianRoulette;
+    json["shutter"] = shutterText(report);
     json["camera"] = toJson(scene.camera);
     json["scene_hash"] = hexText(scene.hash);
     return json;

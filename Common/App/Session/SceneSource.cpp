@@ -2,25 +2,25 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "Common/App/Interactive/CameraController.h"
+#include "Common/App/Session/SceneImages.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/Printable.h"
 #include "Common/Core/ReadFile.h"
 #include "Common/Core/SystemMemory.h"
-#include "Common/Image/ImageIo.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Scene/Compiler/Bounds.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"
-#include "Common/Scene/Gltf/GltfFile.h"
 #include "Common/Scene/Gltf/GltfLoader.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "Common/Scene/Obj/ObjLoader.h"
@@ -30,56 +30,10 @@
 namespace rt::app {
 namespace {
 
-// What the scene compiler wants of an image file: sRGB bytes packed into words, or floats as words. Values of 16
-// bits become floats.
-scene::TexelData toTexelData(const image::Texels& texels) {
-    scene::TexelData data;
-    data.width = texels.width;
-    data.height = texels.height;
-    if (!texels.srgb16.empty()) {
-        const bool hasOpacity = !texels.alpha16.empty();
-        const auto word = [](std::uint16_t value) { return shared::floatBitsToUint(float(value) / 65535.0f); };
-        data.format = hasOpacity ? shared::kTexelLinearF32A : shared::kTexelLinearF32;
-        data.isEncoded = true;
-        data.words.reserve(texels.srgb16.size() + texels.alpha16.size());
-        for (std::size_t i = 0; i < texels.srgb16.size(); ++i) {
-            data.words.push_back(word(texels.srgb16[i]));
-            if (hasOpacity && i % 3 == 2) data.words.push_back(word(texels.alpha16[i / 3]));
-        }
-        return data;
-    }
-    if (texels.srgb8.empty()) {
-        data.format = shared::kTexelLinearF32;
-        data.words.resize(texels.linear.size());
-        std::memcpy(data.words.data(), texels.linear.data(), texels.linear.size() * sizeof(float));
-        return data;
-    }
-    data.format = shared::kTexelSrgb8;
-    data.words.resize(texels.srgb8.size() / 3);
-    for (std::size_t i = 0; i < data.words.size(); ++i) {
-        const std::uint8_t* rgb = &texels.srgb8[3 * i];
-        const std::uint32_t alpha = texels.alpha8.empty() ? 0xffu : texels.alpha8[i];
-        data.words[i] = rgb[0] | std::uint32_t{rgb[1]} << 8 | std::uint32_t{rgb[2]} << 16 | alpha << 24;
-    }
-    return data;
-}
-
 std::shared_ptr<const scene::CompiledScene> compileWith(const scene::SceneDesc& desc, bool oneSidedLights,
                                                         scene::CompileOptions options) {
     options.oneSidedLights = oneSidedLights;
-    std::map<std::filesystem::path, scene::GltfImages> files; // read once each
-    options.loadTexels = [&files](const std::filesystem::path& path, std::optional<std::uint32_t> image) {
-        if (!image) {
-            const auto bytes = std::make_shared<const std::vector<std::byte>>(image::readTexels(path));
-            return scene::EncodedTexels(image::texelCount(*bytes),
-                                        [bytes, path] { return toTexelData(image::decodeTexels(*bytes, path)); });
-        }
-        const scene::GltfImages& images = files.try_emplace(path, path).first->second;
-        const std::span<const std::byte> bytes = images.encoded(*image);
-        const std::string name = path.string() + ": /images/" + std::to_string(*image);
-        return scene::EncodedTexels(image::texelCount(bytes),
-                                    [bytes, name] { return toTexelData(image::decodeTexels(bytes, name)); });
-    };
+    if (!options.loadTexels) options.loadTexels = makeTexelLoader();
     return scene::compileScene(desc, options);
 }
 
@@ -91,40 +45,64 @@ std::string kindOf(const std::filesystem::path& path) {
     return kind == ".gz" ? kindOf(path.stem()) + kind : kind;
 }
 
-// What surrounds a model follows from its start, and stays where it is while the model moves: the studio, and the view
-// where the file has no camera.
-scene::SceneDesc loadAnimatedModel(const std::filesystem::path& path, const scene::Moment& moment) {
-    scene::SceneDesc scene = scene::loadGltfScene(path, moment);
-    if (moment.time == 0) {
-        scene::addStudioIfUnlit(scene, scene::boundsOfMeshes(scene));
+// A model's scene at any time of an animation. What surrounds it follows from its start, and stays where it is while
+// the model moves: the studio, and the view where the file has no camera.
+class AnimatedModel {
+  public:
+    AnimatedModel(const std::filesystem::path& path, scene::Moment moment) : file_(path), moment_(std::move(moment)) {}
+
+    bool isAnimated() const { return file_.isAnimated(); }
+
+    scene::SceneDesc at(double seconds) {
+        scene::SceneDesc scene = file_.at({moment_.animation, seconds, moment_.isAsked});
+        if (!start_) start_ = seconds == 0 ? startOf(scene) : startOf(file_.at({moment_.animation, 0}));
+        if (scene.cameras.empty()) scene.camera = start_->camera;
+        scene::addStudioIfUnlit(scene, start_->bounds);
         return scene;
     }
-    const scene::SceneDesc start = scene::loadGltfScene(path, {moment.animation, 0});
-    if (scene.cameras.empty()) scene.camera = start.camera;
-    scene::addStudioIfUnlit(scene, scene::boundsOfMeshes(start));
-    return scene;
+
+  private:
+    struct Start {
+        scene::CameraDesc camera;
+        scene::Bounds bounds;
+    };
+    static Start startOf(const scene::SceneDesc& scene) { return {scene.camera, scene::boundsOfMeshes(scene)}; }
+
+    const scene::GltfScene file_;
+    const scene::Moment moment_; // but for its time
+    std::optional<Start> start_; // once a pose was asked for
+};
+
+bool namesGltf(const std::filesystem::path& path) {
+    const std::string kind = kindOf(path);
+    return kind == ".gltf" || kind == ".glb";
+}
+
+// Of the source, or of the assets' file of this name.
+std::filesystem::path fileNamedBy(const std::string& source) {
+    std::filesystem::path path(source);
+    std::error_code none;
+    if (path.is_relative() && !std::filesystem::exists(path, none)) path = findAsset("scenes" / path).value_or(path);
+    return path;
 }
 
 } // namespace
 
 scene::SceneDesc loadScene(const std::string& source, const scene::Moment& moment) {
-    std::filesystem::path path(source);
-    const std::string extension = kindOf(path);
+    const std::string extension = kindOf(source);
     using Load = scene::SceneDesc (*)(const std::filesystem::path&);
     static const std::map<std::string, Load> loaders = {{".json", scene::loadSceneFile},
                                                         {".obj", scene::loadObjScene},
                                                         {".pbrt", scene::loadPbrtScene},
                                                         {".pbrt.gz", scene::loadPbrtScene}};
     const auto loader = loaders.find(extension);
-    const bool isGltf = extension == ".gltf" || extension == ".glb";
-    if (loader == loaders.end() && !isGltf) {
+    if (loader == loaders.end() && !namesGltf(source)) {
         scene::SceneDesc scene = scene::findBuiltinScene(source);
         noticeStandstill(moment, scene.notices);
         return scene;
     }
-    std::error_code none;
-    if (path.is_relative() && !std::filesystem::exists(path, none)) path = findAsset("scenes" / path).value_or(path);
-    if (isGltf) return loadAnimatedModel(path, moment);
+    const std::filesystem::path path = fileNamedBy(source);
+    if (namesGltf(path)) return AnimatedModel(path, moment).at(moment.time);
     scene::SceneDesc scene = loader->second(path);
     noticeStandstill(moment, scene.notices);
     // Files of scenes, as those of models do not, say what light there is.
@@ -161,6 +139,22 @@ std::shared_ptr<const scene::CompiledScene> compile(scene::SceneDesc desc, const
     kept.reset(); // as large as what was made of it, and engines now want memory
     releaseFreedMemory();
     return compiled;
+}
+
+PoseScene posesOf(const SceneRequest& request) {
+    if (!namesGltf(request.source)) return {};
+    const ReadsBelow confined(request.assetsBelow, request.source);
+    const auto model = std::make_shared<AnimatedModel>(fileNamedBy(request.source), request.moment);
+    if (!model->isAnimated()) return {};
+    return [request, model, loadTexels = makeKeepingTexelLoader()](double seconds) {
+        const ReadsBelow readsBelow(request.assetsBelow, request.source);
+        const scene::SceneDesc desc = model->at(seconds);
+        scene::CompileOptions options;
+        options.installedMaps = true;
+        options.loadTexels = loadTexels;
+        if (!request.pose.empty()) options.camera = cameraOf(request.pose, desc);
+        return compileWith(desc, request.oneSidedLights, options);
+    };
 }
 
 scene::CameraDesc poseOf(const std::string& pose, const scene::CameraDesc& scenes) {

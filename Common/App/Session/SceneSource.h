@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "Common/Render/ShutterEngine.h"
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Scene/Moment.h"
 #include "Common/Scene/SceneDesc.h"
@@ -41,6 +42,10 @@ std::shared_ptr<const scene::CompiledScene> compile(scene::SceneDesc desc, const
 // before, or null.
 std::shared_ptr<const scene::CompiledScene> compileKept(const scene::SceneDesc& desc, const SceneRequest& request,
                                                         scene::CompileMemory* memory);
+
+// The request's scene at any time of its animation: its file is read once. None where nothing moves, whatever the time.
+// Both throw what compile() throws.
+PoseScene posesOf(const SceneRequest& request);
 
 // The camera of a pose that may leave parts of it to the scene. Throws UsageError.
 scene::CameraDesc poseOf(const std::string& pose, const scene::CameraDesc& scenes);

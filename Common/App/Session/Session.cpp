@@ -141,6 +141,8 @@ void waitForFrames(Communicator& ranks) {
 ExitCode runSession(Options options, const EngineFactory& makeEngine, Communicator* ranks) {
     if (ranks != nullptr && options.command != Command::Render)
         throw UsageError("mpirun: only to render; start one program for --list-scenes and --export-scene");
+    if (ranks != nullptr && options.shutter.isOpen() && !options.frames)
+        throw UsageError("mpirun: not with --shutter, but for --frames, of which each rank renders its own");
     switch (options.command) {
         case Command::ListScenes:
             std::cout << listScenes(options.json);
@@ -165,6 +167,7 @@ bool followSession(Options options, const EngineFactory& makeEngine, Communicato
         ranks.send(0, toBytes({MessageKind::Rendered, nullptr, {}}));
         return false;
     }
+    if (options.shutter.isOpen()) return false; // which rank 0 refuses
     options.reference.clear();
     HeadlessRender(std::move(options), &ranks).follow(makeEngine);
     return true;

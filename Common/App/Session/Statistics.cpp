@@ -94,6 +94,13 @@ Json choiceJson(const EngineReport& report) {
     return {{"by", report.ratesAreOfBefore ? "earlier measurement" : "measurement"}, {"rays_per_second", rates}};
 }
 
+Json shutterJson(const ShutterFigures& shutter) {
+    return {{"open", shutter.open},
+            {"close", shutter.close},
+            {"poses", shutter.poses},
+            {"pose_seconds", shutter.poseSeconds}};
+}
+
 Json ranksJson(const std::vector<RankFigures>& ranks) {
     Json json = Json::array();
     for (const RankFigures& rank : ranks)
@@ -136,7 +143,8 @@ std::string Statistics::toJson(const Options& options, const scene::CompiledScen
     json["samples_per_second"] = perSecond(samples, seconds.render);
     json["rays"] = raysJson(report.rays, seconds.render);
     json["mean_radiance"] = estimated.meanRadiance;
-    json["standard_error"] = orNull(estimated.standardError);
+    // Pixels of a replicate that share the times of their samples do not tell how far off their mean is.
+    json["standard_error"] = report.shutter ? Json(nullptr) : orNull(estimated.standardError);
     json["nonfinite_samples"] = report.nonfiniteSamples;
     json["cut_off_share"] = report.cutOffShare();
     json["estimated_relmse"] = json["estimated_relmse_interval"] = json["error_is"] = nullptr;
@@ -151,6 +159,8 @@ std::string Statistics::toJson(const Options& options, const scene::CompiledScen
     json["memory"] = {{"peak_rss_bytes", peakResidentBytes()}, {"device_bytes", report.deviceBytes}};
     json["outputs"] = outputs;
     if (!report.rates.empty()) json["engine_choice"] = choiceJson(report);
+    if (options.frame) json["frame"] = *options.frame;
+    if (report.shutter) json["shutter"] = shutterJson(*report.shutter);
     if (!report.ranks.empty()) json["ranks"] = ranksJson(report.ranks);
     if (window) json["window"] = windowJson(*window, report);
     // Names of files may be anything; JSON is UTF-8.

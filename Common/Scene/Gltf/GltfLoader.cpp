@@ -50,13 +50,13 @@ GltfFile readWhole(const std::filesystem::path& path) {
 
 class Importer {
   public:
-    Importer(const std::filesystem::path& path, Moment moment)
-        : file_(readWhole(path)),
+    Importer(const GltfFile& file, Moment moment)
+        : file_(file),
           moment_(std::move(moment)),
           budget_(file_),
           materials_(file_, scene_),
           nodes_(file_, moment_, budget_) {
-        scene_.id = path.filename().string();
+        scene_.id = file.path.filename().string();
         scene_.title = printable(scene_.id);
     }
 
@@ -274,7 +274,7 @@ class Importer {
     void addAnimationNotice() {
         const std::vector<std::string> names = animationNames(file_);
         if (names.empty()) return noticeStandstill(moment_, scene_.notices);
-        if (moment_ != Moment()) return;
+        if (moment_ != Moment() || moment_.isAsked) return;
         std::ostringstream text;
         text << "animation \"" << names.front() << '"';
         if (names.size() > 1) text << ", the first of " << names.size() << ",";
@@ -283,7 +283,7 @@ class Importer {
         scene_.notices.push_back(text.str());
     }
 
-    const GltfFile file_;
+    const GltfFile& file_;
     const Moment moment_;
     GltfBudget budget_;
     SceneDesc scene_;
@@ -299,7 +299,18 @@ class Importer {
 } // namespace
 
 SceneDesc loadGltfScene(const std::filesystem::path& path, const Moment& moment) {
-    return Importer(path, moment).run();
+    return GltfScene(path).at(moment);
+}
+
+GltfScene::GltfScene(const std::filesystem::path& path) : file_(std::make_unique<const GltfFile>(readWhole(path))) {}
+GltfScene::~GltfScene() = default;
+
+bool GltfScene::isAnimated() const {
+    return !file_->model.animations.empty();
+}
+
+SceneDesc GltfScene::at(const Moment& moment) const {
+    return Importer(*file_, moment).run();
 }
 
 } // namespace rt::scene

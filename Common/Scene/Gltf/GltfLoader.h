@@ -1,6 +1,7 @@
 // Scenes of glTF 2.0, read by tinygltf: docs/gltf.md says what becomes of what.
 #pragma once
 #include <filesystem>
+#include <memory>
 
 #include "Common/Scene/Moment.h"
 #include "Common/Scene/SceneDesc.h"
@@ -12,5 +13,22 @@ namespace rt::scene {
 // What is left out gets a notice. Throws InputError in one line, naming the file and its JSON path, and UsageError for
 // an animation that there is not.
 SceneDesc loadGltfScene(const std::filesystem::path& path, const Moment& moment = {});
+
+struct GltfFile;
+
+// A file that is read once, to be posed as often as one likes.
+class GltfScene {
+  public:
+    // Throws InputError as loadGltfScene() does.
+    explicit GltfScene(const std::filesystem::path& path);
+    ~GltfScene();
+
+    bool isAnimated() const;
+    // As loadGltfScene().
+    SceneDesc at(const Moment& moment) const;
+
+  private:
+    const std::unique_ptr<const GltfFile> file_;
+};
 
 } // namespace rt::scene
