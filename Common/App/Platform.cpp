@@ -74,6 +74,10 @@ double processorSeconds() {
     return seconds(kernel) + seconds(user);
 }
 
+std::uint64_t processId() {
+    return GetCurrentProcessId();
+}
+
 void lowerThreadPriority() {
     SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_BELOW_NORMAL);
 }
@@ -92,20 +96,23 @@ void* SharedLibrary::symbol(const char* name) const {
     return handle_ == nullptr ? nullptr : reinterpret_cast<void*>(GetProcAddress(static_cast<HMODULE>(handle_), name));
 }
 
-FileLock::FileLock(const std::filesystem::path& file) {
+FileLock::FileLock(const std::filesystem::path& file, bool waits) {
     const HANDLE handle = CreateFileW(file.c_str(), GENERIC_READ | GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE,
                                       nullptr, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, nullptr);
     if (handle == INVALID_HANDLE_VALUE) throw RenderError(file.string() + ": cannot be opened");
-    handle_ = reinterpret_cast<std::intptr_t>(handle);
     OVERLAPPED start{};
-    if (!LockFileEx(handle, LOCKFILE_EXCLUSIVE_LOCK, 0, MAXDWORD, MAXDWORD, &start)) {
-        CloseHandle(handle);
-        throw RenderError(file.string() + ": cannot be locked");
+    const DWORD how = LOCKFILE_EXCLUSIVE_LOCK | (waits ? 0 : LOCKFILE_FAIL_IMMEDIATELY);
+    if (LockFileEx(handle, how, 0, MAXDWORD, MAXDWORD, &start)) {
+        handle_ = reinterpret_cast<std::intptr_t>(handle);
+        return;
     }
+    const bool isTaken = GetLastError() == ERROR_LOCK_VIOLATION;
+    CloseHandle(handle);
+    if (waits || !isTaken) throw RenderError(file.string() + ": cannot be locked");
 }
 
 FileLock::~FileLock() {
-    CloseHandle(reinterpret_cast<HANDLE>(handle_));
+    if (handle_ != -1) CloseHandle(reinterpret_cast<HANDLE>(handle_));
 }
 
 namespace {
@@ -214,6 +221,10 @@ double processorSeconds() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+std::uint64_t processId() {
+    return static_cast<std::uint64_t>(getpid());
+}
+
 void lowerThreadPriority() {
 #ifdef __linux__
     // Linux gives each thread a niceness of its own, and new threads that of the one that starts them.
@@ -234,24 +245,27 @@ void* SharedLibrary::symbol(const char* name) const {
     return handle_ == nullptr ? nullptr : dlsym(handle_, name);
 }
 
-FileLock::FileLock(const std::filesystem::path& file) {
+FileLock::FileLock(const std::filesystem::path& file, bool waits) {
     const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     const auto fail = [&file](const char* what) {
         throw RenderError(file.string() + ": " + what + ": " + std::generic_category().message(errno));
     };
     if (descriptor < 0) fail("cannot be opened");
     int result = 0;
-    do result = flock(descriptor, LOCK_EX);
+    do result = flock(descriptor, waits ? LOCK_EX : LOCK_EX | LOCK_NB);
     while (result != 0 && errno == EINTR);
-    if (result != 0) {
-        close(descriptor);
-        fail("cannot be locked");
+    if (result == 0) {
+        handle_ = descriptor;
+        return;
     }
-    handle_ = descriptor;
+    const int error = errno;
+    close(descriptor);
+    errno = error;
+    if (waits || error != EWOULDBLOCK) fail("cannot be locked");
 }
 
 FileLock::~FileLock() {
-    close(static_cast<int>(handle_));
+    if (handle_ != -1) close(static_cast<int>(handle_));
 }
 
 ChildProcess::ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
@@ -293,6 +307,14 @@ void ChildProcess::end() {
 }
 
 #endif
+
+FileLock::FileLock(const std::filesystem::path& file) : FileLock(file, true) {}
+
+std::unique_ptr<FileLock> FileLock::ifFree(const std::filesystem::path& file) {
+    std::unique_ptr<FileLock> lock(new FileLock(file, false));
+    if (lock->handle_ == -1) lock.reset();
+    return lock;
+}
 
 #ifdef __linux__
 

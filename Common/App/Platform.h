@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ std::uint64_t residentBytes();  // of this process at present; 0 where unknown
 std::uint64_t machineBytes();   // of memory that it has; 0 where unknown
 std::uint32_t processorCount(); // of the machine, whichever of them this process may use
 double processorSeconds();      // that all threads of this process have run
+std::uint64_t processId();      // as the system's list of processes has it
 
 // The calling thread, and where the platform lets them inherit it the threads that it starts, give way to others.
 void lowerThreadPriority();
@@ -47,12 +49,15 @@ class SharedLibrary {
 class FileLock {
   public:
     explicit FileLock(const std::filesystem::path& file);
+    // Null where another one has it, be it of this process. Throws RenderError.
+    static std::unique_ptr<FileLock> ifFree(const std::filesystem::path& file);
     ~FileLock();
     FileLock(const FileLock&) = delete;
     FileLock& operator=(const FileLock&) = delete;
 
   private:
-    std::intptr_t handle_;
+    FileLock(const std::filesystem::path& file, bool waits); // without waiting it may have no lock: handle_ is -1
+    std::intptr_t handle_ = -1;
 };
 
 // A program that runs beside this one, without input, its output and messages in a file. The destructor ends it.

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "Common/App/Platform.h"
 #include "Common/App/Session/Interrupt.h"
 #include "Common/App/Session/Outputs.h"
+#include "Common/Core/Log.h"
 #include "Common/Gui/FrameTimer.h"
 #include "Common/Gui/ImGuiLayer.h"
 #include "Common/Gui/ObjectTools.h"
@@ -71,6 +73,7 @@ class App {
                probe_,
                paths_,
                probeImage_} {
+        gui_.recovery.autosave = autosave_.get();
         gui_.showFirstSteps = !std::exchange(settings_.sawFirstSteps, true);
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
     }
@@ -90,6 +93,7 @@ class App {
     void drawInterface();
     void drawOtherViewports(float scale);
     bool askBeforeClosing();
+    void endAutosave(bool isInterrupted);
     void rescue();
 
     app::Options options_;
@@ -106,7 +110,8 @@ class App {
     app::CameraController camera_;
     std::atomic<bool> isNews_{false}; // there is something new of the session
     app::InteractiveSession session_;
-    app::SceneEditor editor_{session_, options_.assetsBelow};
+    std::unique_ptr<app::Autosave> autosave_ = autosaveOf(options_, [this] { isNews_ = true; });
+    app::SceneEditor editor_{session_, options_.assetsBelow, autosave_.get()};
     app::OtherEngine other_{history_, [this] { isNews_ = true; }};
     probe::ProbeView probe_{[this] { isNews_ = true; }};
     probe::PathsView paths_{[this] { isNews_ = true; }};
@@ -142,12 +147,20 @@ ExitCode App::run(const std::atomic<bool>& isInterrupted) {
     }
     waitForPresenting();
     window_.hide(); // what follows may take a while
+    endAutosave(isInterrupted);
     kept_.keep(window_);
     const app::EndFiles files = session_.close();
     // A signal before there is anything to write loses nothing.
     const bool losesNothing = isInterrupted && !files.hasFilm;
     if (!files.failures.empty() && !losesNothing) throw RenderError(files.failures.front());
     return isInterrupted ? ExitCode::Interrupted : ExitCode::Done;
+}
+
+// Whoever has closed the window has decided what becomes of edits; whoever has ended the program by a signal has not.
+void App::endAutosave(bool isInterrupted) {
+    if (autosave_ == nullptr) return;
+    if (!isInterrupted) return autosave_->end();
+    if (editor_.isDirty()) logWarning("edits of the scene are not saved: the next window offers them again");
 }
 
 // Whether the window stays open for that.
@@ -291,6 +304,7 @@ void App::drawFrame(bool isShown) {
     for (const InputEvent& event : input_)
         if (isKeyPress(event)) obeyKey(gui_, event);
     followEditing(gui_);
+    followRecovery(gui_);
     followMaterials(gui_);
     followSampler(gui_);
     followNoisyPixel(gui_);
@@ -352,6 +366,7 @@ void App::drawInterface() {
     drawHelp(gui_);
     drawFirstSteps(gui_, area);
     drawUnsaved(gui_);
+    drawRecovery(gui_);
     if (gui_.browser.isOpen())
         if (const auto file = gui_.browser.draw(settings_.recent)) gui_.take(*file);
 }
@@ -375,6 +390,7 @@ void App::drawOtherViewports(float scale) {
 
 void App::rescue() {
     std::cerr << options_.program << ": the window system has taken the window away" << std::endl;
+    autosave_.reset(); // writes what it has
     kept_.store();
     other_.close();
     session_.close();

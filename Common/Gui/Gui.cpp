@@ -26,7 +26,10 @@ void Gui::openScene(const std::string& source) {
 }
 
 void Gui::close() {
-    onceSaved(*this, [this] { window.close(); });
+    onceSaved(*this, [this] {
+        editing.isDiscarded = editor.isDirty(); // or the window would ask once more
+        window.close();
+    });
 }
 
 void Gui::stepScene(int step) {

@@ -24,6 +24,7 @@
 #include "Common/Gui/NoisyPixel.h"
 #include "Common/Gui/PanelImage.h"
 #include "Common/Gui/PinnedView.h"
+#include "Common/Gui/Recovery.h"
 #include "Common/Gui/RunBoard.h"
 #include "Common/Gui/SamplerView.h"
 #include "Common/Gui/SceneEditing.h"
@@ -77,6 +78,7 @@ struct Gui {
     app::SessionState state; // of this frame
     SceneEditing editing;
     MaterialTools materials;
+    Recovery recovery;
     SamplerView sampling;
     NoisyPixel noise;
     Rect shownImage; // the whole picture's, in the window's units

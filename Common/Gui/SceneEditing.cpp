@@ -126,6 +126,7 @@ void saveSceneAs(Gui& gui) {
 void onceSaved(Gui& gui, std::function<void()> action) {
     if (!gui.editor.isDirty()) return action();
     gui.editing.whenSaved = std::move(action);
+    gui.editing.goesOnAfterSaving = gui.editor.isDirtyUntilSaved();
 }
 
 void drawUnsaved(Gui& gui) {
@@ -145,10 +146,7 @@ void drawUnsaved(Gui& gui) {
             saveScene(gui);
         }
         ImGui::SameLine();
-        if (button("Discard them", "They cannot be had back", true)) {
-            editing.isDiscarded = true;
-            std::exchange(editing.whenSaved, {})();
-        }
+        if (button("Discard them", "They cannot be had back", true)) std::exchange(editing.whenSaved, {})();
         ImGui::SameLine();
         if (button("Go on editing", nullptr, true)) editing.whenSaved = {};
     }

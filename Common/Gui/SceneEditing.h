@@ -57,7 +57,7 @@ struct SceneEditing {
     std::uint64_t hiddenRevision = ~std::uint64_t{0};
     std::function<void()> whenSaved; // what waits until the user has said what becomes of unsaved edits; none
     bool goesOnAfterSaving = false;
-    bool isDiscarded = false; // what is not saved is not wanted
+    bool isDiscarded = false; // the window closes, and what is not saved is not wanted
 };
 
 // Each frame, before anything is drawn.

@@ -1,5 +1,7 @@
 #include "Common/Gui/UserFiles.h"
 
+#include <utility>
+
 #include "Common/App/Platform.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
@@ -26,6 +28,12 @@ std::filesystem::path historyFile(const app::Options& options) {
 
 app::ReferenceCache referenceCache(const app::Options& options) {
     return options.keepsUserFiles ? app::ReferenceCache::ofUser() : app::ReferenceCache({});
+}
+
+std::unique_ptr<app::Autosave> autosaveOf(const app::Options& options, std::function<void()> onFailure) {
+    const std::filesystem::path folder = options.keepsUserFiles ? app::autosaveFolder() : std::filesystem::path();
+    if (folder.empty()) return nullptr;
+    return std::make_unique<app::Autosave>(folder, options.program, std::move(onFailure));
 }
 
 WindowPlace placeOf(const app::GuiSettings& settings) {

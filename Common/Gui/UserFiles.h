@@ -1,8 +1,11 @@
 // What a window keeps between two runs of its program, in the user's place for such files.
 #pragma once
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 
+#include "Common/App/Interactive/Autosave.h"
 #include "Common/App/Interactive/GuiSettings.h"
 #include "Common/App/Options/Options.h"
 #include "Common/App/Session/ReferenceCache.h"
@@ -16,6 +19,9 @@ std::filesystem::path layoutFile(const app::Options& options);
 std::filesystem::path historyFile(const app::Options& options);
 // Keeps nothing with --no-config.
 app::ReferenceCache referenceCache(const app::Options& options);
+
+// Null where nothing is kept.
+std::unique_ptr<app::Autosave> autosaveOf(const app::Options& options, std::function<void()> onFailure);
 
 WindowPlace placeOf(const app::GuiSettings& settings);
 

@@ -106,6 +106,7 @@ void Desktop::launch(const std::string& program, const std::vector<std::string>&
     std::vector<std::pair<std::string, std::string>> environment = {
         {"DISPLAY", display_},
         {"XDG_CONFIG_HOME", (folder_ / "config").string()},
+        {"XDG_STATE_HOME", (folder_ / "state").string()},
         {"RT_PLANET_MAPS", ""},                // the generated ones, wherever tests run
         {"XDG_RUNTIME_DIR", folder_.string()}, // newer drivers complain where there is none
         {"XDG_PICTURES_DIR", (folder_ / "pictures").string()}};

@@ -154,9 +154,9 @@ void InteractiveSession::dropScenes() {
     });
 }
 
-void InteractiveSession::open(const std::string& source) {
+void InteractiveSession::open(const std::string& source, std::optional<scene::Moment> moment) {
     at().state.setStage("Loading " + source); // first: it may be there in no time
-    loader_.open(source);
+    loader_.open(source, std::move(moment));
     dropScenes();
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -37,7 +38,7 @@ class InteractiveSession {
     void closeViewport(ViewportId viewport); // frees its engine and its film; not the last one, nor the addressed one
 
     // Requests. None of them waits; the last of a kind counts.
-    void open(const std::string& source);
+    void open(const std::string& source, std::optional<scene::Moment> moment = {}); // as SceneLoader has it
     // For a file that has changed: gives way to what is being loaded or prepared. Whether it was requested.
     bool reopen(const std::string& source);
     // From now on the present scene is edited: this is its description, and each edit changes it as the window's own.

@@ -1,6 +1,8 @@
 #include "Common/App/Interactive/SceneEditor.h"
 
+#include <algorithm>
 #include <chrono>
+#include <map>
 #include <utility>
 
 #include "Common/App/Session/Outputs.h"
@@ -11,6 +13,9 @@
 #include "Common/Scene/Json/SceneJson.h"
 
 namespace rt::app {
+
+using scene::EditStep;
+
 namespace {
 
 template <typename Value>
@@ -27,7 +32,10 @@ SceneEditor::~SceneEditor() {
 void SceneEditor::end() {
     if (document_) session_.stopEditing();
     if (callOff_) *callOff_ = true;
+    if (document_ && autosave_ != nullptr) autosave_->end();
     document_.reset();
+    notes_.clear();
+    sinceSaved_.clear();
     selected_.set(std::nullopt);
     journal_.clear();
     outlined_ = {};
@@ -41,32 +49,94 @@ void SceneEditor::follow(const SessionState& state) {
         sceneReads_ = state.sceneReads;
         end();
     }
-    if (isThere(saving_)) {
-        try {
-            saved_ = saving_.get();
-        } catch (...) {
-            if (document_) document_->markUnsaved();
-            throw;
-        }
-        savedMark_ = markOf(*saved_);
-        session_.nameEdited(*saved_);
-    }
+    if (isThere(saving_)) finishSaving();
     if (!isThere(reading_)) return;
     Read read = reading_.get();
     document_.emplace(std::move(read.first));
     session_.startEditing(std::move(read.second));
+    beginAutosave(source_, moment_, readMark_);
     structureEdits_ = sentStructure_ = 0;
     // The file may have become another one since it was rendered.
     if (markOf(source_) != state.sourceMark) structureEdits_ = edits_ = session_.edit({}, false);
 }
 
+void SceneEditor::finishSaving() {
+    std::vector<EditStep> since = std::exchange(sinceSaved_, {});
+    try {
+        saved_ = saving_.get();
+    } catch (...) {
+        if (document_) document_->markUnsaved();
+        throw;
+    }
+    savedMark_ = markOf(*saved_);
+    session_.nameEdited(*saved_);
+    if (!document_) return;
+    const bool goesOn = !since.empty();
+    beginAutosave(*saved_, {}, savedMark_);
+    keepsEdits_ = keepsEdits_ || goesOn;
+    for (EditStep& step : since)
+        if (autosave_ != nullptr) autosave_->add(std::move(step));
+}
+
+// ---- for the case of a crash ---------------------------------------------------------------------------------------
+
+void SceneEditor::beginAutosave(std::string source, const scene::Moment& moment, std::optional<FileFingerprint> mark) {
+    keptFrom_ = document_->position();
+    keepsEdits_ = document_->stepCount() > keptFrom_; // which redo would lead to
+    if (autosave_ != nullptr)
+        autosave_->begin({wholeSource(source), document_->scene().title, moment, std::move(mark)});
+}
+
+void SceneEditor::note(EditStep step) {
+    if (autosave_ != nullptr) notes_.push_back(std::move(step));
+}
+
+// By the steps where those lead back to nothing that the autosave does not know, else by what they have come to.
+void SceneEditor::keepNotes() {
+    if (autosave_ == nullptr) return;
+    std::vector<EditStep> steps = std::exchange(notes_, {});
+    if (keepsEdits_) {
+        steps.clear();
+        if (journal_.empty()) return;
+        steps.push_back({EditStep::Kind::Perform, "Edits", journal_});
+    }
+    for (EditStep& step : steps) {
+        step.leavesUnsaved = isDirty();
+        if (saving_.valid()) sinceSaved_.push_back(step);
+        autosave_->add(std::move(step));
+    }
+}
+
+void SceneEditor::repeat(std::vector<EditStep> steps) {
+    std::map<std::uint64_t, std::uint64_t> gestures; // of this window, for those of the other one
+    for (EditStep& step : steps) {
+        if (step.gesture != 0) {
+            std::uint64_t& own = gestures[step.gesture];
+            if (own == 0) own = newGesture();
+            step.gesture = own;
+        }
+        try {
+            scene::repeat(*document_, step);
+        } catch (...) {
+            send(false);
+            throw;
+        }
+        note(std::move(step));
+    }
+    send(false);
+}
+
+// ---- the document --------------------------------------------------------------------------------------------------
+
 void SceneEditor::begin() {
     if (document_ || reading_.valid() || source_.empty()) return;
+    readMark_ = markOf(source_); // before it is read
     callOff_ = std::make_shared<std::atomic<bool>>(false);
     const auto read = [source = source_, moment = moment_, assetsBelow = assetsBelow_, callOff = callOff_] {
         const Interruptible interruptible(*callOff);
         const ReadsBelow confined(assetsBelow, source);
-        scene::SceneDesc scene = loadScene(source, moment);
+        scene::SceneDesc scene =
+            loadScene(wholeSource(source), moment); // so that files it names are found from anywhere
         scene::SceneDesc copy = scene;
         return Read(std::move(scene), std::move(copy));
     };
@@ -83,6 +153,7 @@ void SceneEditor::followJournal() {
 
 void SceneEditor::send(bool isGesture) {
     followJournal();
+    keepNotes();
     if (journal_.empty()) return;
     selected_.keepExisting(document_->scene());
     edits_ = session_.edit(std::exchange(journal_, {}), isGesture);
@@ -90,15 +161,22 @@ void SceneEditor::send(bool isGesture) {
 }
 
 void SceneEditor::perform(std::string name, std::vector<scene::SceneEdit> edits, std::uint64_t gesture) {
+    std::vector<scene::SceneEdit> kept;
+    if (autosave_ != nullptr && !keepsEdits_) kept = edits;
+    std::string keptName = name;
     document_->perform(std::move(name), std::move(edits), gesture);
+    note({EditStep::Kind::Perform, std::move(keptName), std::move(kept), gesture});
     send(gesture != 0);
 }
 
 void SceneEditor::performAnew(std::string name, const MakeEdits& make, std::uint64_t gesture) {
-    document_->giveUp(gesture);
+    takeBack(gesture);
     followJournal();
     try {
-        document_->perform(std::move(name), make(document_->scene()), gesture);
+        std::vector<scene::SceneEdit> edits = make(document_->scene());
+        EditStep step{EditStep::Kind::Perform, name, edits, gesture};
+        document_->perform(std::move(name), std::move(edits), gesture);
+        note(std::move(step));
     } catch (...) {
         send(true);
         throw;
@@ -106,22 +184,33 @@ void SceneEditor::performAnew(std::string name, const MakeEdits& make, std::uint
     send(true);
 }
 
-void SceneEditor::giveUp(std::uint64_t gesture) {
+void SceneEditor::takeBack(std::uint64_t gesture) {
+    const std::size_t before = document_->position();
     document_->giveUp(gesture);
+    if (document_->position() < std::min(before, keptFrom_)) keepsEdits_ = true;
+    if (document_->position() < before) note({EditStep::Kind::GiveUp, {}, {}, gesture});
+}
+
+void SceneEditor::giveUp(std::uint64_t gesture) {
+    takeBack(gesture);
     send(false);
 }
 
 void SceneEditor::joinSteps(std::string name) {
+    note({EditStep::Kind::Join, name});
+    if (document_->position() < keptFrom_ + 2) keepsEdits_ = true;
     document_->joinSteps(std::move(name));
+    keepNotes();
 }
 
 void SceneEditor::undo() {
-    document_->undo();
+    if (document_->position() <= keptFrom_) keepsEdits_ = true;
+    if (document_->undo()) note({EditStep::Kind::Undo});
     send(false);
 }
 
 void SceneEditor::redo() {
-    document_->redo();
+    if (document_->redo()) note({EditStep::Kind::Redo});
     send(false);
 }
 
@@ -133,6 +222,7 @@ void SceneEditor::save(const std::string& file) {
     };
     saving_ = std::async(std::launch::async, write);
     document_->markSaved(); // unless it fails
+    keepsEdits_ = true;     // what is done meanwhile counts for the file before and for the one that is written
 }
 
 bool SceneEditor::isInStep(const SessionState& state) const {

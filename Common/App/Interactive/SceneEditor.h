@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "Common/App/Interactive/Autosave.h"
 #include "Common/App/Interactive/InteractiveSession.h"
 #include "Common/App/Interactive/ObjectSelection.h"
 #include "Common/Scene/Edit/SceneDocument.h"
@@ -27,9 +28,9 @@ struct SelectionOutline {
 
 class SceneEditor {
   public:
-    // `assetsBelow`: as --assets-below.
-    SceneEditor(InteractiveSession& session, std::string assetsBelow)
-        : session_(session), assetsBelow_(std::move(assetsBelow)) {}
+    // `assetsBelow`: as --assets-below. `autosave` outlives it and gets what is not saved; null: nobody does.
+    SceneEditor(InteractiveSession& session, std::string assetsBelow, Autosave* autosave = nullptr)
+        : session_(session), assetsBelow_(std::move(assetsBelow)), autosave_(autosave) {}
     ~SceneEditor();
     SceneEditor(const SceneEditor&) = delete;
     SceneEditor& operator=(const SceneEditor&) = delete;
@@ -53,8 +54,13 @@ class SceneEditor {
     void undo();
     void redo();
     std::uint64_t newGesture() { return ++gestures_; }
+    // Does again what an autosave holds, to the scene as it was before that. Throws where it does not fit the scene,
+    // with what has been done until then.
+    void repeat(std::vector<scene::EditStep> steps);
 
-    bool isDirty() const { return document_ && document_->isDirty(); }
+    bool isDirty() const { return document_ && (document_->isDirty() || isSaving()); } // until all of it is written
+    // All that is dirty is on its way to the file.
+    bool isDirtyUntilSaved() const { return isSaving() && document_ && !document_->isDirty(); }
     // As a scene file; what is edited is in that file from then on.
     void save(const std::string& file);
     bool isSaving() const { return saving_.valid(); }
@@ -79,12 +85,23 @@ class SceneEditor {
     void followJournal();
     void send(bool isGesture);
     void end();
+    void takeBack(std::uint64_t gesture); // without telling anybody
+    void note(scene::EditStep step);
+    void keepNotes();
+    void beginAutosave(std::string source, const scene::Moment& moment, std::optional<FileFingerprint> mark);
+    void finishSaving();
 
     InteractiveSession& session_;
     const std::string assetsBelow_;
-    std::string source_;           // of the scene that there is
-    scene::Moment moment_;         // that it is posed at
-    std::uint64_t sceneReads_ = 0; // that this has followed
+    Autosave* const autosave_;
+    std::vector<scene::EditStep> notes_;      // what has just been done, for the autosave
+    std::vector<scene::EditStep> sinceSaved_; // while it is being saved: what its file will lack
+    std::size_t keptFrom_ = 0;                // the history's position that the autosave begins at
+    bool keepsEdits_ = false;                 // no steps, as those would lead to what it does not know
+    std::optional<FileFingerprint> readMark_; // of the file that is being read
+    std::string source_;                      // of the scene that there is
+    scene::Moment moment_;                    // that it is posed at
+    std::uint64_t sceneReads_ = 0;            // that this has followed
     std::optional<scene::SceneDocument> document_;
     ObjectSelection selected_;
     std::uint64_t gestures_ = 0;

@@ -116,10 +116,11 @@ bool SceneLoader::isWanted(const SceneRequest& request) const {
     return !isGivenUp_ && (request == last_ || areOfOneEdit(request, last_));
 }
 
-void SceneLoader::open(const std::string& source) {
+void SceneLoader::open(const std::string& source, std::optional<scene::Moment> moment) {
     const SceneRequest last = lastRequest();
     const bool isAgain = source == last.source; // the file has changed
-    request({source, last.oneSidedLights, {}, last.assetsBelow, isAgain ? last.moment : scene::Moment()});
+    if (!moment) moment = isAgain ? last.moment : scene::Moment();
+    request({source, last.oneSidedLights, {}, last.assetsBelow, *moment});
 }
 
 bool SceneLoader::setOneSidedLights(bool on) {

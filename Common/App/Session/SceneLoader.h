@@ -35,8 +35,9 @@ class SceneLoader {
 
     // Replaces a request that has not begun; one that has begun is called off.
     void request(SceneRequest request);
-    void open(const std::string& source); // as what was requested last, but for the camera: the scene's own
-    bool setOneSidedLights(bool on);      // loads anew what was requested last; false: it is loaded so
+    // As what was requested last, but for the camera: the scene's own. `moment`: none: that of what it was, or the first.
+    void open(const std::string& source, std::optional<scene::Moment> moment = {});
+    bool setOneSidedLights(bool on); // loads anew what was requested last; false: it is loaded so
     SceneRequest lastRequest() const;
     // What is loaded or has just been; the last request is then the one before that was handed over.
     void giveUp();

@@ -26,6 +26,7 @@ class JsonNode {
         : JsonNode(value, array, nullptr, index) {}
 
     const nlohmann::json& value() const { return *value_; }
+    const std::string& file() const { return *file_; }
     std::string path() const; // "/objects/3/radius"
 
     // ---- structure
