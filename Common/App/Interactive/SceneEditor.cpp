@@ -5,12 +5,12 @@
 #include <map>
 #include <utility>
 
+#include "Common/App/Interactive/SceneFileText.h"
 #include "Common/App/Session/Outputs.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Core/ReadFile.h"
 #include "Common/Scene/Edit/ObjectMotion.h"
-#include "Common/Scene/Json/SceneJson.h"
 
 namespace rt::app {
 
@@ -216,8 +216,10 @@ void SceneEditor::redo() {
 
 void SceneEditor::save(const std::string& file) {
     if (saving_.valid()) return;
-    const auto write = [scene = document_->scene(), file] {
-        writeText(file, scene::toJson(scene));
+    const auto write = [scene = document_->scene(), file, source = wholeSource(source_), moment = moment_,
+                        assetsBelow = assetsBelow_] {
+        const ReadsBelow confined(assetsBelow, source);
+        writeText(file, sceneFileText(scene, source, moment, file));
         return file;
     };
     saving_ = std::async(std::launch::async, write);

@@ -1,8 +1,6 @@
 #include "Common/App/Session/SceneSource.h"
 
 #include <algorithm>
-#include <cctype>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,13 +17,9 @@
 #include "Common/Core/ReadFile.h"
 #include "Common/Core/SystemMemory.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
-#include "Common/Scene/Compiler/Bounds.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"
-#include "Common/Scene/Gltf/GltfLoader.h"
 #include "Common/Scene/Json/SceneJson.h"
-#include "Common/Scene/Obj/ObjLoader.h"
-#include "Common/Scene/Pbrt/PbrtLoader.h"
-#include "Common/Scene/Studio.h"
+#include "Common/Scene/ModelFile.h"
 
 namespace rt::app {
 namespace {
@@ -35,47 +29,6 @@ std::shared_ptr<const scene::CompiledScene> compileWith(const scene::SceneDesc& 
     options.oneSidedLights = oneSidedLights;
     if (!options.loadTexels) options.loadTexels = makeTexelLoader();
     return scene::compileScene(desc, options);
-}
-
-// The ending of a file, in lower case, with what is packed before ".gz".
-std::string kindOf(const std::filesystem::path& path) {
-    std::string kind = path.extension().string();
-    const auto lower = [](unsigned char c) { return static_cast<char>(std::tolower(c)); };
-    std::transform(kind.begin(), kind.end(), kind.begin(), lower);
-    return kind == ".gz" ? kindOf(path.stem()) + kind : kind;
-}
-
-// A model's scene at any time of an animation. What surrounds it follows from its start, and stays where it is while
-// the model moves: the studio, and the view where the file has no camera.
-class AnimatedModel {
-  public:
-    AnimatedModel(const std::filesystem::path& path, scene::Moment moment) : file_(path), moment_(std::move(moment)) {}
-
-    bool isAnimated() const { return file_.isAnimated(); }
-
-    scene::SceneDesc at(double seconds) {
-        scene::SceneDesc scene = file_.at({moment_.animation, seconds, moment_.isAsked});
-        if (!start_) start_ = seconds == 0 ? startOf(scene) : startOf(file_.at({moment_.animation, 0}));
-        if (scene.cameras.empty()) scene.camera = start_->camera;
-        scene::addStudioIfUnlit(scene, start_->bounds);
-        return scene;
-    }
-
-  private:
-    struct Start {
-        scene::CameraDesc camera;
-        scene::Bounds bounds;
-    };
-    static Start startOf(const scene::SceneDesc& scene) { return {scene.camera, scene::boundsOfMeshes(scene)}; }
-
-    const scene::GltfScene file_;
-    const scene::Moment moment_; // but for its time
-    std::optional<Start> start_; // once a pose was asked for
-};
-
-bool namesGltf(const std::filesystem::path& path) {
-    const std::string kind = kindOf(path);
-    return kind == ".gltf" || kind == ".glb";
 }
 
 // Of the source, or of the assets' file of this name.
@@ -89,24 +42,16 @@ std::filesystem::path fileNamedBy(const std::string& source) {
 } // namespace
 
 scene::SceneDesc loadScene(const std::string& source, const scene::Moment& moment) {
-    const std::string extension = kindOf(source);
-    using Load = scene::SceneDesc (*)(const std::filesystem::path&);
-    static const std::map<std::string, Load> loaders = {{".json", scene::loadSceneFile},
-                                                        {".obj", scene::loadObjScene},
-                                                        {".pbrt", scene::loadPbrtScene},
-                                                        {".pbrt.gz", scene::loadPbrtScene}};
-    const auto loader = loaders.find(extension);
-    if (loader == loaders.end() && !namesGltf(source)) {
+    const bool isSceneFile = scene::kindOfFile(source) == ".json";
+    if (!isSceneFile && !scene::isModelFile(source)) {
         scene::SceneDesc scene = scene::findBuiltinScene(source);
         noticeStandstill(moment, scene.notices);
         return scene;
     }
     const std::filesystem::path path = fileNamedBy(source);
-    if (namesGltf(path)) return AnimatedModel(path, moment).at(moment.time);
-    scene::SceneDesc scene = loader->second(path);
+    if (!isSceneFile) return scene::loadModelFile(path, moment);
+    scene::SceneDesc scene = scene::loadSceneFile(path);
     noticeStandstill(moment, scene.notices);
-    // Files of scenes, as those of models do not, say what light there is.
-    if (extension == ".obj") scene::addStudioIfUnlit(scene, scene::boundsOfMeshes(scene));
     return scene;
 }
 
@@ -142,9 +87,9 @@ std::shared_ptr<const scene::CompiledScene> compile(scene::SceneDesc desc, const
 }
 
 PoseScene posesOf(const SceneRequest& request) {
-    if (!namesGltf(request.source)) return {};
+    if (!scene::isGltfFile(request.source)) return {};
     const ReadsBelow confined(request.assetsBelow, request.source);
-    const auto model = std::make_shared<AnimatedModel>(fileNamedBy(request.source), request.moment);
+    const auto model = std::make_shared<scene::AnimatedModel>(fileNamedBy(request.source), request.moment);
     if (!model->isAnimated()) return {};
     return [request, model, loadTexels = makeKeepingTexelLoader()](double seconds) {
         const ReadsBelow readsBelow(request.assetsBelow, request.source);

@@ -11,6 +11,7 @@
 #include "Common/Core/SystemMemory.h"
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/Builtin/Placeholders.h"
+#include "Common/Scene/Edit/ObjectPath.h"
 #include "Common/Scene/Json/SceneReader.h"
 
 namespace rt::scene {
@@ -280,7 +281,27 @@ InstanceDesc readInstance(const JsonNode& node, const SceneReferences& reference
     return instance;
 }
 
+// What a model's object becomes, by what it was.
+ObjectDesc readImported(const JsonNode& node, const SceneReferences& references) {
+    expectObject(node, {"type", "transform", "material"});
+    ObjectDesc object = *references.original();
+    if (const auto transform = node.find("transform")) {
+        Transform* const own = transformOf(object);
+        if (own == nullptr) transform->fail("that object of the model has no transform: put it into a group");
+        *own = readTransform(*transform);
+    }
+    if (const auto material = node.find("material")) {
+        std::string* const own = materialNameOf(object);
+        if (own == nullptr) material->fail("that object of the model has no material");
+        const bool isKept = material->value() == "" && std::holds_alternative<InstanceDesc>(object.shape);
+        *own = isKept ? "" : references.name(*material, "materials"); // that of each surface
+    }
+    return object;
+}
+
 ObjectDesc readShape(const JsonNode& node, const SceneReferences& references) {
+    if (references.original() != nullptr && node.at("type").value() == "imported")
+        return readImported(node, references);
     const std::string type =
         node.at("type").oneOf({"sphere", "spheres", "quad", "box", "disk", "cylinder", "mesh", "medium", "point_light",
                                "spot_light", "directional_light", "group", "instance"});

@@ -1,9 +1,11 @@
 // Scene files. The format is published as Assets/scene.schema.json.
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "Common/Scene/Moment.h"
 #include "Common/Scene/SceneDesc.h"
 
 namespace rt::scene {
@@ -17,5 +19,15 @@ SceneDesc parseScene(std::string_view text, const std::string& file, const std::
 
 // The text of a scene file. parseScene gives back an equal description, but for its id, and numbers to the last bit.
 std::string toJson(const SceneDesc& scene);
+
+// A model that a scene file begins with, and changes: the file is named, not copied.
+struct ImportDesc {
+    std::filesystem::path file; // whole, or as it is to be written
+    Moment moment;
+};
+std::optional<ImportDesc> importOf(const std::filesystem::path& sceneFile); // none: the file has all by itself
+// The text of a scene file of what the scene has beyond the model, as loadModelFile() gives it. Throws InputError where
+// reading it would not give an equal description.
+std::string toJson(const SceneDesc& scene, const ImportDesc& import, SceneDesc model);
 
 } // namespace rt::scene

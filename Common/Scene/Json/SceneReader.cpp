@@ -5,8 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <optional>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -15,6 +18,7 @@
 #include "Common/Core/OtherCase.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Scene/Json/Import.h"
 #include "Common/Scene/Json/SceneJson.h"
 
 namespace rt::scene {
@@ -87,11 +91,21 @@ RenderDefaults readRender(const JsonNode& node) {
     return defaults;
 }
 
-SceneDesc readScene(const JsonNode& root, const SceneReferences& references, const LongJson& text) {
-    root.expectKeys({"$schema", "version", "title", "comment", "camera", "cameras", "background", "textures",
-                     "materials", "prototypes", "objects", "importance_targets", "render"});
+// `model`: what the import has led to; empty: it is read.
+SceneDesc readScene(const JsonNode& root, SceneReferences references, const LongJson& text,
+                    std::optional<SceneDesc> model) {
+    root.expectKeys({"$schema", "version", "title", "comment", "import", "removed", "changes", "camera", "cameras",
+                     "background", "textures", "materials", "prototypes", "objects", "importance_targets", "render"});
     if (const auto version = root.find("version"); version && version->value() != 1) version->failValue("1");
+    const auto import = root.find("import");
+    for (const char* key : {"removed", "changes"})
+        if (!import && root.has(key)) root.at(key).fail("there is no \"import\" that it could change");
     SceneDesc scene;
+    if (import) {
+        scene = model ? std::move(*model) : loadImport(*import, references);
+        references.setModel(&scene);
+    }
+    if (const auto removed = root.find("removed")) removeFromModel(*removed, scene);
     if (const auto node = root.find("title")) scene.title = node->string();
     if (const auto lines = root.find("comment")) // for readers of the file
         lines->forEachElement([](const JsonNode& line) { (void)line.string(); });
@@ -112,7 +126,14 @@ SceneDesc readScene(const JsonNode& root, const SceneReferences& references, con
         section->forEachMember([&](const std::string& name, const JsonNode& node) {
             scene.prototypes[name] = readObjects(node, references);
         });
-    scene.objects = readObjects(root.at("objects"), references, text);
+    if (const auto changes = root.find("changes")) changeModel(*changes, references, scene);
+    std::vector<ObjectDesc> own = readObjects(root.at("objects"), references, text);
+    if (scene.objects.empty())
+        scene.objects = std::move(own);
+    else
+        std::move(own.begin(), own.end(), std::back_inserter(scene.objects));
+    if (import) checkNames(root, scene);
+    if (root.has("importance_targets")) scene.importanceTargets.clear();
     if (const auto section = root.find("importance_targets"))
         section->forEachElement([&](const JsonNode& node) { scene.importanceTargets.push_back(readTarget(node)); });
     if (const auto node = root.find("render")) scene.render = readRender(*node);
@@ -123,10 +144,18 @@ SceneDesc readScene(const JsonNode& root, const SceneReferences& references, con
 
 // ---- references ----------------------------------------------------------------------------------------------------
 
+bool SceneReferences::isOfModel(const std::string& name, const char* section) const {
+    if (model_ == nullptr) return false;
+    const std::string_view list = section;
+    return list == "textures"    ? model_->textures.contains(name)
+           : list == "materials" ? model_->materials.contains(name)
+                                 : model_->prototypes.contains(name);
+}
+
 std::string SceneReferences::name(const JsonNode& node, const char* section) const {
     const std::string text = node.string();
     const auto names = root_.find(section);
-    if (names && names->has(text.c_str())) return text;
+    if ((names && names->has(text.c_str())) || isOfModel(text, section)) return text;
     std::string known;
     if (names && names->value().is_object())
         for (const auto& member : names->value().items())
@@ -164,13 +193,29 @@ std::string readChoice(const JsonNode& node, const std::vector<std::string>& all
 
 // ---- interface -----------------------------------------------------------------------------------------------------
 
-SceneDesc parseScene(std::string_view text, const std::string& file, const std::filesystem::path& folder) {
+SceneDesc parseSceneOn(std::string_view text, const std::string& file, const std::filesystem::path& folder,
+                       std::optional<SceneDesc> model) {
     const LongJson json(text, file, "objects");
     const LargeJson document = json.document();
     const JsonNode root(*document, file);
-    SceneDesc scene = readScene(root, SceneReferences(root, folder), json);
+    SceneDesc scene = readScene(root, SceneReferences(root, folder), json, std::move(model));
     scene.id = file;
     return scene;
+}
+
+SceneDesc parseScene(std::string_view text, const std::string& file, const std::filesystem::path& folder) {
+    return parseSceneOn(text, file, folder, std::nullopt);
+}
+
+std::optional<ImportDesc> importOf(const std::filesystem::path& sceneFile) {
+    const std::vector<std::byte> bytes = readFile(sceneFile, kMaxSceneBytes);
+    const std::string name = sceneFile.string();
+    const LongJson json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, "objects");
+    const LargeJson document = json.document();
+    const JsonNode root(*document, name);
+    const std::filesystem::path folder = sceneFile.parent_path();
+    const auto import = root.find("import");
+    return import ? std::optional(readImport(*import, SceneReferences(root, folder))) : std::nullopt;
 }
 
 SceneDesc loadSceneFile(const std::filesystem::path& path) {

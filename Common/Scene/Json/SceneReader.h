@@ -16,6 +16,12 @@ class SceneReferences {
     // Both must outlive this.
     SceneReferences(const JsonNode& root, const std::filesystem::path& folder) : root_(root), folder_(folder) {}
 
+    // What the scene begins with (import) has names, too. It must outlive this, and name what is left of it.
+    void setModel(const SceneDesc* model) { model_ = model; }
+    // Of a model's object what it becomes may refer to; null: there is none.
+    void setOriginal(const ObjectDesc* original) { original_ = original; }
+    const ObjectDesc* original() const { return original_; }
+
     // The name of a member of a section of the scene.
     std::string name(const JsonNode& node, const char* section) const;
     // A constant colour with components in [0,1], or the name of a texture.
@@ -25,8 +31,12 @@ class SceneReferences {
     std::string file(const JsonNode& node, bool hasStandIn) const;
 
   private:
+    bool isOfModel(const std::string& name, const char* section) const;
+
     const JsonNode& root_;
     const std::filesystem::path& folder_;
+    const SceneDesc* model_ = nullptr;
+    const ObjectDesc* original_ = nullptr;
 };
 
 // One of a list of names.

@@ -1,7 +1,7 @@
 // Writing of scene files. Defaults are left out.
-#include <algorithm>
+#include "Common/Scene/Json/SceneWriter.h"
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Printable.h"
@@ -13,8 +13,6 @@
 namespace rt::scene {
 
 namespace {
-
-using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::size_t kLineWidth = 120;
 
@@ -326,13 +324,14 @@ OrderedJson withHidden(OrderedJson object) {
     return out;
 }
 
+OrderedJson json(const ObjectDesc& object) {
+    OrderedJson all = std::visit([](const auto& shape) { return json(shape); }, object.shape);
+    return object.hidden ? withHidden(std::move(all)) : all;
+}
+
 OrderedJson json(const std::vector<ObjectDesc>& objects) {
     OrderedJson out = OrderedJson::array();
-    for (const ObjectDesc& object : objects) {
-        OrderedJson all = std::visit([](const auto& shape) { return json(shape); }, object.shape);
-        if (object.hidden) all = withHidden(std::move(all));
-        out.push_back(std::move(all));
-    }
+    for (const ObjectDesc& object : objects) out.push_back(json(object));
     return out;
 }
 
@@ -343,7 +342,15 @@ void setSection(OrderedJson& target, const char* key, const std::map<std::string
 
 } // namespace
 
-std::string toJson(const SceneDesc& scene) {
+OrderedJson jsonOf(const ObjectDesc& object) {
+    return json(object);
+}
+
+OrderedJson jsonOf(const Transform& transform) {
+    return json(transform);
+}
+
+OrderedJson jsonOf(const SceneDesc& scene) {
     OrderedJson out = {{"version", 1}};
     setUnless(out, "title", scene.title, std::string());
     out["camera"] = json(scene.camera);
@@ -356,9 +363,17 @@ std::string toJson(const SceneDesc& scene) {
     out["objects"] = json(scene.objects);
     for (const TargetDesc& target : scene.importanceTargets)
         out["importance_targets"].push_back(std::visit([](const auto& shape) { return json(shape); }, target.shape));
+    return out;
+}
+
+std::string layOut(const OrderedJson& value) {
     std::string text;
-    write(out, "", text);
+    write(value, "", text);
     return text + '\n';
+}
+
+std::string toJson(const SceneDesc& scene) {
+    return layOut(jsonOf(scene));
 }
 
 } // namespace rt::scene

@@ -1,0 +1,44 @@
+// Scene files that begin with a model and change it: what they name of it, and what it becomes.
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "Common/Scene/Json/SceneJson.h"
+#include "Common/Scene/Json/SceneReader.h"
+
+namespace rt::scene {
+
+// Objects of a list by what they are called and the how many-eth of that name they are, "wood #2": called by their
+// prototype or their material, else by their type. The list must not change meanwhile.
+class ObjectKeys {
+  public:
+    explicit ObjectKeys(const std::vector<ObjectDesc>& objects);
+
+    const std::string& key(std::size_t index) const { return keys_[index]; }
+    std::optional<std::size_t> find(const std::string& key) const;
+    std::size_t countLike(const std::string& key) const; // how many are called so
+
+  private:
+    std::vector<std::string> keys_;
+    std::unordered_map<std::string, std::size_t> places_, counts_;
+};
+
+// ---- reading -------------------------------------------------------------------------------------------------------
+
+ImportDesc readImport(const JsonNode& node, const SceneReferences& references);
+SceneDesc loadImport(const JsonNode& node, const SceneReferences& references);
+void removeFromModel(const JsonNode& removed, SceneDesc& scene);
+void changeModel(const JsonNode& changes, const SceneReferences& references, SceneDesc& scene);
+// What is used must not have been removed.
+void checkNames(const JsonNode& root, const SceneDesc& scene);
+
+// As parseScene(), on a model that has been read by now.
+SceneDesc parseSceneOn(std::string_view text, const std::string& file, const std::filesystem::path& folder,
+                       std::optional<SceneDesc> model);
+
+} // namespace rt::scene

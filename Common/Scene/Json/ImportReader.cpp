@@ -1,0 +1,228 @@
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Paths.h"
+#include "Common/Scene/Edit/ObjectPath.h"
+#include "Common/Scene/Json/Import.h"
+#include "Common/Scene/ModelFile.h"
+#include "Common/Scene/TextureNames.h"
+
+namespace rt::scene {
+
+namespace {
+
+struct CalledBy {
+    std::string operator()(const InstanceDesc& instance) const { return instance.prototype; }
+    std::string operator()(const GroupDesc&) const { return "group"; }
+    std::string operator()(const MediumDesc&) const { return "medium"; }
+    std::string operator()(const PointLightDesc&) const { return "point light"; }
+    std::string operator()(const SpotLightDesc&) const { return "spot light"; }
+    std::string operator()(const DirectionalLightDesc&) const { return "directional light"; }
+    template <typename Surface>
+    std::string operator()(const Surface& surface) const {
+        return surface.material.empty() ? "mesh" : surface.material;
+    }
+};
+
+constexpr std::string_view kOrdinal = " #";
+
+std::string nameWithoutOrdinal(const std::string& key) {
+    return key.substr(0, key.rfind(kOrdinal));
+}
+
+} // namespace
+
+ObjectKeys::ObjectKeys(const std::vector<ObjectDesc>& objects) {
+    keys_.reserve(objects.size());
+    for (const ObjectDesc& object : objects) {
+        const std::string name = std::visit(CalledBy{}, object.shape);
+        keys_.push_back(name + std::string(kOrdinal) + std::to_string(++counts_[name]));
+        places_.emplace(keys_.back(), keys_.size() - 1);
+    }
+}
+
+std::optional<std::size_t> ObjectKeys::find(const std::string& key) const {
+    const auto found = places_.find(key);
+    return found != places_.end() ? std::optional(found->second) : std::nullopt;
+}
+
+std::size_t ObjectKeys::countLike(const std::string& key) const {
+    const auto found = counts_.find(nameWithoutOrdinal(key));
+    return found != counts_.end() ? found->second : 0;
+}
+
+// ---- the model -----------------------------------------------------------------------------------------------------
+
+ImportDesc readImport(const JsonNode& node, const SceneReferences& references) {
+    node.expectKeys({"file", "animation", "time"});
+    ImportDesc import;
+    import.file = references.file(node.at("file"), false);
+    if (import.file.is_relative()) import.file = findAsset(import.file).value_or(import.file);
+    if (!isModelFile(import.file)) node.at("file").failValue("a file of glTF, OBJ or pbrt");
+    if (const auto animation = node.find("animation")) import.moment.animation = animation->string();
+    if (const auto time = node.find("time")) import.moment.time = time->within(0, kLargest);
+    return import;
+}
+
+SceneDesc loadImport(const JsonNode& node, const SceneReferences& references) {
+    const ImportDesc import = readImport(node, references);
+    try {
+        return loadModelFile(import.file, import.moment);
+    } catch (const UsageError& error) { // of an animation
+        node.fail(error.what());
+    }
+}
+
+void removeFromModel(const JsonNode& removed, SceneDesc& scene) {
+    removed.expectKeys({"textures", "materials", "prototypes", "cameras"});
+    const auto removeFrom = [&](const char* key, auto& section) {
+        if (const auto names = removed.find(key))
+            names->forEachElement([&](const JsonNode& name) {
+                if (section.erase(name.string()) == 0)
+                    name.failValue(std::string("a name that the model has in its ") + key);
+            });
+    };
+    removeFrom("textures", scene.textures);
+    removeFrom("materials", scene.materials);
+    removeFrom("prototypes", scene.prototypes);
+    removeFrom("cameras", scene.cameras);
+}
+
+// ---- its objects ---------------------------------------------------------------------------------------------------
+
+namespace {
+
+// Of an object, and of those in it.
+struct ModelChange {
+    std::optional<JsonNode> becomes;
+    std::map<std::size_t, std::unique_ptr<ModelChange>> inner;
+    std::unique_ptr<ObjectKeys> keys; // of its objects, once any is changed
+};
+
+using ListOfModel = std::vector<ObjectDesc>;
+
+ListOfModel& listToChange(const JsonNode& change, SceneDesc& scene) {
+    const auto prototype = change.find("prototype");
+    if (!prototype) return scene.objects;
+    const auto found = scene.prototypes.find(prototype->string());
+    if (found == scene.prototypes.end()) prototype->failValue("the name of a prototype of the model");
+    return found->second;
+}
+
+void noteChange(const JsonNode& node, const ListOfModel& objects, ModelChange& root) {
+    node.expectKeys({"prototype", "object", "becomes"});
+    const JsonNode names = node.at("object");
+    if (names.arraySize() == 0) names.failValue("what the object is called, behind the groups that it is in");
+    const ListOfModel* list = &objects;
+    ModelChange* change = &root;
+    for (std::size_t i = 0; i < names.arraySize(); ++i) {
+        const JsonNode name = names.element(i);
+        if (list == nullptr) name.failValue("in a group, which the one before is not");
+        if (!change->keys) change->keys = std::make_unique<ObjectKeys>(*list);
+        const auto index = change->keys->find(name.string());
+        if (!index)
+            name.failValue("an object of the model, in which " +
+                           std::to_string(change->keys->countLike(name.string())) + " there are called \"" +
+                           nameWithoutOrdinal(name.string()) + '"');
+        const auto* group = std::get_if<GroupDesc>(&(*list)[*index].shape);
+        list = group != nullptr ? &group->objects : nullptr;
+        std::unique_ptr<ModelChange>& inner = change->inner[*index];
+        if (!inner) inner = std::make_unique<ModelChange>();
+        change = inner.get();
+    }
+    if (change->becomes) node.fail("that object is changed once before");
+    change->becomes = node.at("becomes");
+}
+
+void applyInside(ListOfModel& list, const ModelChange& change, const SceneReferences& references) {
+    const bool keepsCount = std::all_of(change.inner.begin(), change.inner.end(), [](const auto& entry) {
+        const std::optional<JsonNode>& becomes = entry.second->becomes;
+        return !becomes || becomes->arraySize() == 1;
+    });
+    ListOfModel result;
+    std::size_t done = 0; // of the list, where the number of objects changes
+    for (const auto& [index, inner] : change.inner) {
+        ObjectDesc& object = list[index];
+        if (!inner->inner.empty()) applyInside(std::get<GroupDesc>(object.shape).objects, *inner, references);
+        if (!inner->becomes) continue;
+        SceneReferences those = references;
+        those.setOriginal(&object);
+        ListOfModel becomes = readObjects(*inner->becomes, those);
+        if (keepsCount) {
+            object = std::move(becomes.front());
+            continue;
+        }
+        const auto from = list.begin() + static_cast<std::ptrdiff_t>(done);
+        std::move(from, list.begin() + static_cast<std::ptrdiff_t>(index), std::back_inserter(result));
+        std::move(becomes.begin(), becomes.end(), std::back_inserter(result));
+        done = index + 1;
+    }
+    if (keepsCount) return;
+    std::move(list.begin() + static_cast<std::ptrdiff_t>(done), list.end(), std::back_inserter(result));
+    list = std::move(result);
+}
+
+} // namespace
+
+void changeModel(const JsonNode& changes, const SceneReferences& references, SceneDesc& scene) {
+    std::map<ListOfModel*, ModelChange> lists;
+    std::vector<JsonNode> nodes; // which those of what objects become point into
+    nodes.reserve(changes.arraySize());
+    for (std::size_t i = 0; i < changes.arraySize(); ++i) nodes.push_back(changes.element(i));
+    for (const JsonNode& node : nodes) {
+        ListOfModel& list = listToChange(node, scene);
+        noteChange(node, list, lists[&list]);
+    }
+    for (auto& [list, change] : lists) applyInside(*list, change, references);
+}
+
+namespace {
+
+class UsedNames {
+  public:
+    UsedNames(const JsonNode& root, const SceneDesc& scene) : root_(root), scene_(scene) {}
+
+    void check() const {
+        for (const auto& [name, material] : scene_.materials)
+            forEachTextureName(material, [&](const std::string& used) { expectTexture(used, "/materials/" + name); });
+        for (const auto& [name, texture] : scene_.textures)
+            forEachInnerTexture(texture, [&](const std::string& used) { expectTexture(used, "/textures/" + name); });
+        for (const auto& [name, objects] : scene_.prototypes) check(objects, "/prototypes/" + name);
+        check(scene_.objects, "/objects");
+    }
+
+  private:
+    void check(const std::vector<ObjectDesc>& objects, const std::string& place) const {
+        for (const ObjectDesc& object : objects) {
+            const std::string* material = materialNameOf(object);
+            if (material != nullptr && !material->empty() && !scene_.materials.contains(*material))
+                fail("material", *material, place);
+            if (const auto* instance = std::get_if<InstanceDesc>(&object.shape))
+                if (!scene_.prototypes.contains(instance->prototype)) fail("prototype", instance->prototype, place);
+            if (const auto* medium = std::get_if<MediumDesc>(&object.shape))
+                visitTextureName(medium->albedo, [&](const std::string& used) { expectTexture(used, place); });
+            if (const auto* group = std::get_if<GroupDesc>(&object.shape)) check(group->objects, place);
+        }
+    }
+    void expectTexture(const std::string& name, const std::string& place) const {
+        if (!scene_.textures.contains(name)) fail("texture", name, place);
+    }
+    [[noreturn]] void fail(const char* what, const std::string& name, const std::string& place) const {
+        root_.fail(std::string(what) + " \"" + name + "\" is removed, and used in " + place);
+    }
+
+    const JsonNode& root_;
+    const SceneDesc& scene_;
+};
+
+} // namespace
+
+void checkNames(const JsonNode& root, const SceneDesc& scene) {
+    if (root.has("removed")) UsedNames(root, scene).check();
+}
+
+} // namespace rt::scene

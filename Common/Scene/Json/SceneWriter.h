@@ -1,0 +1,20 @@
+// The parts of writing a scene file; SceneJson.h is the interface.
+#pragma once
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "Common/Scene/SceneDesc.h"
+
+namespace rt::scene {
+
+using OrderedJson = nlohmann::ordered_json;
+
+OrderedJson jsonOf(const SceneDesc& scene);
+OrderedJson jsonOf(const ObjectDesc& object);
+OrderedJson jsonOf(const Transform& transform);
+
+// The text of a file. Throws InputError for what JSON cannot hold.
+std::string layOut(const OrderedJson& value);
+
+} // namespace rt::scene

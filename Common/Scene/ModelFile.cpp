@@ -1,0 +1,82 @@
+#include "Common/Scene/ModelFile.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <utility>
+
+#include "Common/Scene/Obj/ObjLoader.h"
+#include "Common/Scene/Pbrt/PbrtLoader.h"
+#include "Common/Scene/Studio.h"
+
+namespace rt::scene {
+
+namespace {
+
+using LoadModel = SceneDesc (*)(const std::filesystem::path&, const Moment&);
+
+SceneDesc loadAnimatedModel(const std::filesystem::path& path, const Moment& moment) {
+    return AnimatedModel(path, moment).at(moment.time);
+}
+
+SceneDesc loadObjModel(const std::filesystem::path& path, const Moment& moment) {
+    SceneDesc scene = loadObjScene(path);
+    noticeStandstill(moment, scene.notices);
+    addStudioIfUnlit(scene, boundsOfMeshes(scene));
+    return scene;
+}
+
+// Which says what light there is.
+SceneDesc loadPbrt(const std::filesystem::path& path, const Moment& moment) {
+    SceneDesc scene = loadPbrtScene(path);
+    noticeStandstill(moment, scene.notices);
+    return scene;
+}
+
+const std::map<std::string, LoadModel>& modelLoaders() {
+    static const std::map<std::string, LoadModel> loaders = {{".gltf", loadAnimatedModel},
+                                                             {".glb", loadAnimatedModel},
+                                                             {".obj", loadObjModel},
+                                                             {".pbrt", loadPbrt},
+                                                             {".pbrt.gz", loadPbrt}};
+    return loaders;
+}
+
+} // namespace
+
+std::string kindOfFile(const std::filesystem::path& path) {
+    std::string kind = path.extension().string();
+    const auto lower = [](unsigned char c) { return static_cast<char>(std::tolower(c)); };
+    std::transform(kind.begin(), kind.end(), kind.begin(), lower);
+    return kind == ".gz" ? kindOfFile(path.stem()) + kind : kind;
+}
+
+bool isModelFile(const std::filesystem::path& path) {
+    return modelLoaders().contains(kindOfFile(path));
+}
+
+bool isGltfFile(const std::filesystem::path& path) {
+    const std::string kind = kindOfFile(path);
+    return kind == ".gltf" || kind == ".glb";
+}
+
+SceneDesc loadModelFile(const std::filesystem::path& path, const Moment& moment) {
+    return modelLoaders().at(kindOfFile(path))(path, moment);
+}
+
+AnimatedModel::AnimatedModel(const std::filesystem::path& path, Moment moment)
+    : file_(path), moment_(std::move(moment)) {}
+
+AnimatedModel::Start AnimatedModel::startOf(const SceneDesc& scene) {
+    return {scene.camera, boundsOfMeshes(scene)};
+}
+
+SceneDesc AnimatedModel::at(double seconds) {
+    SceneDesc scene = file_.at({moment_.animation, seconds, moment_.isAsked});
+    if (!start_) start_ = seconds == 0 ? startOf(scene) : startOf(file_.at({moment_.animation, 0}));
+    if (scene.cameras.empty()) scene.camera = start_->camera;
+    addStudioIfUnlit(scene, start_->bounds);
+    return scene;
+}
+
+} // namespace rt::scene
