@@ -35,7 +35,7 @@ class SceneLoader {
 
     // Replaces a request that has not begun; one that has begun is called off.
     void request(SceneRequest request);
-    // As what was requested last, but for the camera: the scene's own. `moment`: none: that of what it was, or the first.
+    // As what was requested last, but for the camera: the scene's own. Without a moment: at that of the same scene.
     void open(const std::string& source, std::optional<scene::Moment> moment = {});
     bool setOneSidedLights(bool on); // loads anew what was requested last; false: it is loaded so
     SceneRequest lastRequest() const;
