@@ -27,8 +27,9 @@ std::string howMany(std::size_t steps) {
     return std::to_string(steps) + (steps == 1 ? " edit" : " edits");
 }
 
+// None of those that are of no interest any more when a scene has been loaded.
 void complain(Gui& gui, const std::string& text) {
-    gui.fail(text, app::ErrorSource::Scene);
+    gui.fail(text, app::ErrorSource::Other);
 }
 
 // Whenever a scene has been opened, as others may have left something meanwhile.

@@ -129,6 +129,18 @@ TEST_P(RecoveryTest, ASignalKeepsEditsAndDiscardingThemDoesNot) {
     EXPECT_TRUE(kept().empty());
 }
 
+TEST_P(RecoveryTest, WhatIsDamagedIsToldAndKeptAside) {
+    const fs::path place = folder_ / "state" / "ray-tracing" / "autosave";
+    fs::create_directories(place);
+    std::ofstream(place / "ray-tracing-cpu-1-1.autosave") << "nonsense\n";
+    startWith(writeScene("ball.json", "Ball"));
+    ASSERT_FALSE(HasFatalFailure());
+    EXPECT_TRUE(appears("Dismiss")) << log();
+    EXPECT_FALSE(isShown("Recover"));
+    EXPECT_EQ(bytesOfFile(place / "ray-tracing-cpu-1-1.damaged"), "nonsense\n");
+    expectCleanEnd();
+}
+
 // Edits that were discarded for another scene, which could not be opened, are edits all the same.
 TEST_P(RecoveryTest, WhatIsNotSavedIsAskedForAgain) {
     startWith(writeScene("ball.json", "Ball"));

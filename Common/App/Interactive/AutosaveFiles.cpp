@@ -198,7 +198,7 @@ std::string ClaimedAutosave::keepAside() {
     fs::rename(file_, aside, error);
     lock_.reset();
     if (!error) fs::remove(lockOf(file_), ignored);
-    return error ? "it stays where it is" : "kept as " + aside.string();
+    return error ? "it stays where it is" : "kept as " + aside.filename().string();
 }
 
 LeftAutosaves findAutosaves(const fs::path& folder) {
