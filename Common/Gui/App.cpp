@@ -26,7 +26,6 @@
 #include "Common/Gui/Snapshot.h"
 #include "Common/Gui/UserFiles.h"
 #include "Common/Gui/Viewports.h"
-#include "Common/Image/ImageIo.h"
 #include "Common/Render/Stopwatch.h"
 #include "Common/Vulkan/Instance.h"
 
@@ -88,7 +87,6 @@ class App {
     void turn();
     void readInput();
     void save();
-    void savePart(const std::function<void(VkCommandBuffer)>& drawInterface);
     void drawFrame(bool isShown);
     void drawInterface();
     void drawOtherViewports(float scale);
@@ -244,7 +242,7 @@ void App::turn() {
         probeImage_.setCommands(commands);
         imgui_.draw(commands);
     };
-    if (gui_.partToSave) savePart(drawInterface);
+    if (gui_.partToSave) savePart(gui_, device_, presenter_.format(), drawInterface);
     const auto upload = [this](VkCommandBuffer commands, std::uint32_t frame) {
         thumbnails_.upload(commands, frame);
         materialPictures_.upload(commands, frame);
@@ -273,22 +271,6 @@ void App::save() {
         request.files = savePaths(settings_.saveFolder, gui_.state, request.what);
     }
     session_.save(std::move(request));
-}
-
-void App::savePart(const std::function<void(VkCommandBuffer)>& drawInterface) {
-    const SavedPart saved = *std::exchange(gui_.partToSave, std::nullopt);
-    const std::string file = saved.file.string();
-    const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale, size = ImGui::GetIO().DisplaySize;
-    const VkExtent2D extent{static_cast<std::uint32_t>(size.x * pixels.x),
-                            static_cast<std::uint32_t>(size.y * pixels.y)};
-    const Rect part{saved.part.x * pixels.x, saved.part.y * pixels.y, saved.part.width * pixels.x,
-                    saved.part.height * pixels.y};
-    try {
-        image::writeImage(file, takeSnapshot(device_, presenter_.format(), extent, part, drawInterface));
-        gui_.say("Saved " + file);
-    } catch (const Error& error) {
-        gui_.fail(error.what(), app::ErrorSource::Save);
-    }
 }
 
 void App::drawFrame(bool isShown) {

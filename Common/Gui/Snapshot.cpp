@@ -3,9 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
+#include <utility>
 
+#include "Common/Core/Error.h"
 #include "Common/Gui/WindowRenderPass.h"
+#include "Common/Image/Image.h"
+#include "Common/Image/ImageIo.h"
 #include "Common/Shared/Tonemap.h"
 #include "Common/Vulkan/Attachment.h"
 #include "Common/Vulkan/Barrier.h"
@@ -85,8 +91,8 @@ VkRect2D within(const Rect& part, VkExtent2D extent) {
     return {{x, y}, {width, height}};
 }
 
-} // namespace
-
+// The interface as an image: what ImGui has drawn, once more, to where it can be read. `part` of a target of `extent`
+// pixels, in pixels, as linear display intensities.
 image::Image takeSnapshot(GraphicsDevice& device, VkFormat format, VkExtent2D extent, const Rect& part,
                           const std::function<void(VkCommandBuffer)>& draw) {
     check(vkDeviceWaitIdle(device.device()), kDrawing); // what `draw` writes to may be in use
@@ -103,6 +109,24 @@ image::Image takeSnapshot(GraphicsDevice& device, VkFormat format, VkExtent2D ex
         picture.data[i] = shared::srgbDecode(static_cast<float>(bytes[i / 3 * 4 + channel]) / 255.0f);
     }
     return picture;
+}
+
+} // namespace
+
+void savePart(Gui& gui, GraphicsDevice& device, VkFormat format, const std::function<void(VkCommandBuffer)>& draw) {
+    const SavedPart saved = *std::exchange(gui.partToSave, std::nullopt);
+    const std::string file = saved.file.string();
+    const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale, size = ImGui::GetIO().DisplaySize;
+    const VkExtent2D extent{static_cast<std::uint32_t>(size.x * pixels.x),
+                            static_cast<std::uint32_t>(size.y * pixels.y)};
+    const Rect part{saved.part.x * pixels.x, saved.part.y * pixels.y, saved.part.width * pixels.x,
+                    saved.part.height * pixels.y};
+    try {
+        image::writeImage(file, takeSnapshot(device, format, extent, part, draw));
+        gui.say("Saved " + file);
+    } catch (const Error& error) {
+        gui.fail(error.what(), app::ErrorSource::Save);
+    }
 }
 
 } // namespace rt::gui

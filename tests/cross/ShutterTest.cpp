@@ -19,11 +19,11 @@ namespace {
 
 // Of each column, over seeds.
 std::vector<Mean> columnMeans(std::unique_ptr<app::Engine> engine, const app::PoseScene& pose) {
-    constexpr std::uint32_t kSeeds = 6;
+    constexpr std::uint32_t kSeeds = 4;
     const auto blurred = app::makeShutterEngine(std::move(engine), 0, 1, pose);
     const auto scene = pose(0.5);
     blurred->setScene(scene, nullptr);
-    app::RenderSettings settings = smallSettings(8, 12);
+    app::RenderSettings settings = smallSettings(8, 8);
     settings.replicates = 2;
     std::vector<Mean> means(settings.width);
     for (settings.seed = 0; settings.seed < kSeeds; ++settings.seed) {

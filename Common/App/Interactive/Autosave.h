@@ -56,7 +56,7 @@ class Autosave {
     std::optional<ClaimedAutosave> takenOver_;
     std::vector<ClaimedAutosave> unwanted_; // that were taken over
     std::optional<std::string> failure_;
-    bool isFresh_ = false; // what the thread has written is of another scene, or not wanted
+    bool isFresh_ = false;    // what the thread has written is of another scene, or not wanted
     bool isTakeover_ = false; // since the thread has looked
     bool quit_ = false;
 

@@ -147,8 +147,8 @@ void addProbe(CLI::App& app, ImageArguments& arguments) {
     constexpr std::uint32_t kMaxPaths = 65536, kMaxStrata = 256;
     CLI::App& probe = *app.add_subcommand(
         "probe",
-        "Show what light sampling does at the surface that a pixel shows: the density of a strategy over all "
-        "directions and over the hemisphere, samples, a chi-square test, the variance of each strategy");
+        "Show what light sampling does where a pixel looks: densities of directions, samples, a chi-square test, "
+        "variances");
     ProbeArguments& values = arguments.probe;
     addPixel(probe, values);
     addFile(probe, "--strategy", values.strategy, "bsdf|lights|mixture|mis|N",
@@ -177,8 +177,7 @@ void addPaths(CLI::App& app, ImageArguments& arguments) {
     constexpr std::uint32_t kMaxSeed = 0xffffffff;
     CLI::App& paths = *app.add_subcommand(
         "paths",
-        "Tell why a pixel is noisy: its samples, traced again as the programs trace them, their variance by how light "
-        "was found and after how many bounces, the brightest paths");
+        "Tell why a pixel is noisy: its samples traced again, the shares of their variance, the brightest paths");
     PathsArguments& values = arguments.paths;
     app::RenderSettings& settings = values.settings;
     addPixel(paths, values);
