@@ -48,10 +48,26 @@ TEST(Turns, RestGivesNoClaimToWhatOthersHad) {
     EXPECT_NEAR(second, 50, 1);
     turns.add(); // opened now
     EXPECT_EQ(turns.next({true, true, true}), 0u);
-    EXPECT_GE(turns.seconds(2), 149);
+    EXPECT_GE(turns.seconds(2), 49);
     turns.remove(0);
     EXPECT_EQ(turns.count(), 2u);
-    EXPECT_GE(turns.seconds(1), 149);
+    EXPECT_GE(turns.seconds(1), 49);
+}
+
+// Else the one that was there first would be the last to follow a camera that all follow.
+TEST(Turns, WhatOneHadAloneIsNoDebt) {
+    Turns turns;
+    for (int i = 0; i < 3; ++i) turns.add();
+    for (int i = 0; i < 100; ++i) turns.spend(*turns.next({true, false, false}), 1);
+    for (int i = 0; i < 3; ++i) turns.spend(*turns.next({false, true, false}), 1);
+    EXPECT_EQ(turns.next({false, false, false}), std::nullopt); // all rest, and go on together
+    std::vector<int> counts(3);
+    for (int i = 0; i < 30; ++i) {
+        const std::size_t next = *turns.next({true, true, true});
+        turns.spend(next, 1);
+        ++counts[next];
+    }
+    EXPECT_EQ(counts, (std::vector<int>{10, 10, 10}));
 }
 
 // What somebody has had too much stays with him.

@@ -5,6 +5,7 @@
 namespace rt::app {
 
 std::optional<std::size_t> Turns::next(const std::vector<bool>& isWaiting) {
+    isShared_ = std::count(isWaiting.begin(), isWaiting.end(), true) > 1;
     // What those have had least who have been waiting: who joins them begins there.
     std::optional<double> least;
     for (std::size_t i = 0; i < count(); ++i)

@@ -18,7 +18,7 @@ std::optional<std::size_t> leastServed(std::size_t count, const IsWaiting& isWai
 }
 
 // Turns of those who come, go, and have nothing to do at times: who waits again, or is new, has no claim to what the
-// others had meanwhile.
+// others had meanwhile, and nobody owes what he had while he alone wanted it.
 class Turns {
   public:
     void add() { had_.push_back({}); }
@@ -27,8 +27,8 @@ class Turns {
 
     // Once for each turn. None: nobody waits.
     std::optional<std::size_t> next(const std::vector<bool>& isWaiting);
-    void spend(std::size_t i, double seconds) { had_[i].seconds += seconds; }
-    double seconds(std::size_t i) const { return had_[i].seconds; } // that it has had, or has no claim to
+    void spend(std::size_t i, double seconds) { had_[i].seconds += isShared_ ? seconds : 0; }
+    double seconds(std::size_t i) const { return had_[i].seconds; } // that it has had of others, or has no claim to
 
   private:
     struct Had {
@@ -36,6 +36,7 @@ class Turns {
         bool wasWaiting = false;
     };
     std::vector<Had> had_;
+    bool isShared_ = false; // the turn at hand, which others wait for
 };
 
 } // namespace rt::app
