@@ -78,7 +78,7 @@ void finishWork(Gui& gui) {
         gui.recovery.autosave->takeOver(std::move(*work.claimed));
         gui.say("Recovered " + howMany(count) + ": they are not saved yet");
     } catch (const std::exception& error) {
-        complain(gui, "not all unsaved edits could be had back: " + messageOf(error) + " (" +
+        complain(gui, "not all unsaved edits could be recovered: " + messageOf(error) + " (" +
                           work.claimed->keepAside() + ')');
     }
     gui.editing.isListStale = true;
@@ -118,7 +118,9 @@ void drawRecovery(Gui& gui) {
     Recovery& recovery = gui.recovery;
     if (recovery.offered.empty() || recovery.work || gui.editing.whenSaved) return;
     const app::LeftAutosave left = recovery.offered.front();
-    const auto takeOut = [&recovery] { recovery.offered.erase(recovery.offered.begin()); };
+    const auto takeOut = [&recovery, file = left.file] {
+        std::erase_if(recovery.offered, [&file](const app::LeftAutosave& other) { return other.file == file; });
+    };
     const ImVec2 size = ImGui::GetMainViewport()->Size;
     const float width = std::min(kWidth * ImGui::GetFontSize(), size.x);
     ImGui::SetNextWindowPos({0.5f * size.x, 0.4f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
@@ -135,16 +137,18 @@ void drawRecovery(Gui& gui) {
         if (left.scene.mark && app::markOf(left.scene.source) != left.scene.mark)
             note("That file has changed since: they may not fit it.");
         if (button("Recover", "Opens the scene and does again what was done to it", true)) {
-            takeOut();
-            onceSaved(gui, [&gui, left] { beginWork(gui, left); });
+            onceSaved(gui, [&gui, takeOut, left] { // who goes on editing first is asked again
+                takeOut();
+                beginWork(gui, left);
+            });
         }
         ImGui::SameLine();
-        if (button("Discard", "They cannot be had back", true)) {
+        if (button("Discard", "They cannot be recovered afterwards", true)) {
             takeOut();
             if (auto claimed = app::ClaimedAutosave::take(left.file)) claimed->remove();
         }
         ImGui::SameLine();
-        if (button("Later", "They are offered again when a scene is opened, or with the next window", true)) {
+        if (button("Later", "They are offered again when their scene is opened, and by the next window", true)) {
             takeOut();
             recovery.postponed.emplace(left.file, left.scene.source);
         }

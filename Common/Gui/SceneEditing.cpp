@@ -146,7 +146,7 @@ void drawUnsaved(Gui& gui) {
             saveScene(gui);
         }
         ImGui::SameLine();
-        if (button("Discard them", "They cannot be had back", true)) std::exchange(editing.whenSaved, {})();
+        if (button("Discard them", "They cannot be recovered afterwards", true)) std::exchange(editing.whenSaved, {})();
         ImGui::SameLine();
         if (button("Go on editing", nullptr, true)) editing.whenSaved = {};
     }

@@ -134,6 +134,19 @@ TEST_F(AutosaveTest, WhatIsDamagedIsKeptAsideWithOneLine) {
     }
 }
 
+TEST_F(AutosaveTest, WhatCouldNotBeWrittenIsTriedAgain) {
+    std::ofstream(place()) << "a file is in its place";
+    std::atomic<int> failures{0};
+    Autosave autosave(
+        place(), "test", [&] { ++failures; }, kAtOnce);
+    autosave.begin(edited());
+    autosave.add(rename("One"));
+    ASSERT_TRUE(becomes([&] { return failures > 0; }));
+    fs::remove(place());
+    EXPECT_TRUE(becomes([&] { return !files().empty(); }));
+    EXPECT_EQ(failures, 1);
+}
+
 TEST_F(AutosaveTest, AFolderThatCannotBeWrittenIsOneNotice) {
     std::ofstream(place()) << "a file is in its place";
     std::atomic<int> failures{0};

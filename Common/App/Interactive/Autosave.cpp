@@ -1,5 +1,6 @@
 #include "Common/App/Interactive/Autosave.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <fstream>
@@ -9,6 +10,11 @@
 #include "Common/Core/Error.h"
 
 namespace rt::app {
+namespace {
+
+constexpr double kMinRetrySeconds = 0.05; // between two attempts to write what could not be written
+
+} // namespace
 
 Autosave::Autosave(std::filesystem::path folder, std::string program, std::function<void()> onFailure, double seconds)
     : folder_(std::move(folder)),
@@ -80,7 +86,11 @@ void Autosave::work() {
     lowerThreadPriority();
     std::unique_lock lock(mutex_);
     while (true) {
-        wake_.wait(lock, [this] { return quit_ || isFresh_ || isTakeover_ || !pending_.empty(); });
+        const auto isAsked = [this] { return quit_ || isFresh_ || isTakeover_ || !pending_.empty(); };
+        if (unwritten_.empty())
+            wake_.wait(lock, isAsked);
+        else // what could not be written is tried again
+            wake_.wait_for(lock, std::chrono::duration<double>(std::max(seconds_, kMinRetrySeconds)), isAsked);
         if (!pending_.empty() && !isFresh_)
             wake_.wait_for(lock, std::chrono::duration<double>(seconds_), [this] { return quit_ || isFresh_; });
         const bool isFresh = std::exchange(isFresh_, false), isLast = quit_;
@@ -93,7 +103,7 @@ void Autosave::work() {
         lock.unlock();
         for (ClaimedAutosave& left : unwanted) left.remove();
         if (isFresh) drop();
-        if (scene && !steps.empty()) write(std::move(steps), *scene);
+        if (scene && !(steps.empty() && unwritten_.empty())) write(std::move(steps), *scene);
         settle();
         if (isLast && !leavesUnsaved_) drop();
         lock.lock();
@@ -122,7 +132,7 @@ void Autosave::write(std::vector<scene::EditStep> steps, const EditedScene& scen
     if (isBroken_) return;
     try {
         if (!file_ && unwritten_.empty()) unwritten_ = autosaveHeader(scene, program_);
-        leavesUnsaved_ = steps.back().leavesUnsaved;
+        if (!steps.empty()) leavesUnsaved_ = steps.back().leavesUnsaved;
         for (const scene::EditStep& step : steps) unwritten_ += autosaveLine(step);
     } catch (const InputError& error) { // what follows would be done to another scene
         isBroken_ = leavesUnsaved_ = true;

@@ -72,7 +72,7 @@ std::vector<std::string> readGuardedLines(const fs::path& file) {
         const std::string text(line.substr(std::min(line.size(), kHashDigits + 1)));
         if (line.substr(0, kHashDigits) != hexText(hashBytes(std::as_bytes(std::span(text)))))
             throw InputError(file.string() + ": line " + std::to_string(lines.size() + 1) +
-                             ": is not what was written there");
+                             " is not what was written there");
         lines.push_back(text);
     }
     if (lines.empty()) throw InputError(file.string() + ": holds no line that was written wholly");
@@ -214,8 +214,9 @@ LeftAutosaves findAutosaves(const fs::path& folder) {
             try {
                 left = lookAtAutosave(file);
             } catch (const InputError& error) {
-                found.complaints.push_back(std::string("unsaved edits cannot be had back: ") + error.what() + " (" +
-                                           claimed->keepAside() + ')');
+                found.complaints.push_back(
+                    std::string("unsaved edits cannot be recovered, as their file is damaged: ") + error.what() + " (" +
+                    claimed->keepAside() + ')');
                 continue;
             }
             if (left && left->steps == 0) claimed->remove();
