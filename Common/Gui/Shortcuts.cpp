@@ -103,6 +103,12 @@ void toggle(bool& value) {
     value = !value;
 }
 
+void toggleLink(Gui& gui) {
+    if (gui.viewportCount() < 2) return;
+    toggle(gui.settings.linkCameras);
+    gui.say(gui.settings.linkCameras ? "Cameras are linked" : "Cameras are not linked");
+}
+
 constexpr Shortcut kShortcuts[] = {
     {GLFW_KEY_F1, When::Always, [](Gui& gui) { toggle(gui.showHelp); }},
     {GLFW_KEY_ESCAPE, When::Always, leave},
@@ -111,7 +117,7 @@ constexpr Shortcut kShortcuts[] = {
     {GLFW_KEY_F5, When::Always, [](Gui& gui) { gui.toggleRace(); }},
     {GLFW_KEY_F6, When::Always, [](Gui& gui) { gui.stepViewports(); }},
     {GLFW_KEY_F7, When::Always, [](Gui& gui) { gui.stepsFocus = true; }},
-    {GLFW_KEY_L, When::Plain, [](Gui& gui) { toggle(gui.settings.linkCameras); }},
+    {GLFW_KEY_L, When::Plain, toggleLink},
     {GLFW_KEY_F4, When::Always, [](Gui& gui) { toggle(gui.settings.showPanels); }},
     {GLFW_KEY_F11, When::Always, [](Gui& gui) { gui.window.toggleFullScreen(); }},
     {GLFW_KEY_F12, When::Always, [](Gui& gui) { gui.saveRequested = true; }},

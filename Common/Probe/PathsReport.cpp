@@ -53,6 +53,8 @@ std::string remedyFor(const NoiseShare& most, const app::RenderSettings& renderi
             return "";
         case Technique::Seen:
             return rendering.edgeRays ? "" : "Edge rays may help, where it is the edge of a light.";
+        case Technique::SharedPath:
+            return "Pixels share their paths here: without path reuse the shares tell how a neighbour found it.";
         default:
             return "";
     }

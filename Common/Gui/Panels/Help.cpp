@@ -128,6 +128,7 @@ void drawHelp(Gui& gui) {
 
 void drawFirstSteps(Gui& gui, const Rect& area) {
     if (!gui.showFirstSteps || gui.errors.unread() != nullptr || hasMessage(gui)) return; // they stand there, too
+    if (gui.viewportCount() > 1) return; // each of which is too narrow for them
     constexpr const char* kSteps[] = {"1  Press F3 and run the other engine: who is faster?",
                                       "2  Set Light sampling to Off: what aiming at lamps is worth",
                                       "3  Press N: the same picture, not denoised"};

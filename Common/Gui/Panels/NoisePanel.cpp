@@ -170,7 +170,7 @@ void drawNoisePath(NoisyPixel& noise, std::size_t i, const probe::ListedPath& pa
     ImGui::PopStyleColor();
     ImGui::SameLine(0, 4);
     ImGui::TextUnformatted(app::titleOf(probe::kTechniques, found.technique).c_str());
-    for (const float density : {found.lightPdf, found.directionPdf, found.weight}) {
+    for (const float density : {found.weight, found.lightPdf, found.directionPdf}) {
         ImGui::TableNextColumn();
         ImGui::TextUnformatted(figureOrDash(density).c_str());
     }
@@ -187,7 +187,7 @@ void drawNoisePaths(NoisyPixel& noise, const probe::PathsShown& shown) {
     const auto rows = static_cast<float>(std::clamp<std::size_t>(paths.size(), 2, 8) + 2);
     if (!ImGui::BeginTable("##paths", 6, kFlags, {0, rows * ImGui::GetTextLineHeightWithSpacing()})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
-    for (const char* title : {"Light", "Bounces", "Found by", "pdf lights", "pdf BSDF", "Weight"})
+    for (const char* title : {"Luminance", "Bounces", "Found by", "Weight", "pdf lights", "pdf BSDF"})
         ImGui::TableSetupColumn(title);
     ImGui::TableHeadersRow();
     for (std::size_t i = 0; i < paths.size(); ++i) drawNoisePath(noise, i, paths[i]);

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/ImageIo.h"
@@ -34,7 +36,8 @@ void runPaths(const ImageArguments& arguments, std::ostream& out) {
     const probe::PathsPlace place{scene.compiled()->id, pixel, settings};
     if (!arguments.output.empty()) image::writeImage(arguments.output, probe::stripOf(result));
     if (asked.json)
-        out << probe::figuresOf(result, place).dump(2) << '\n';
+        out << probe::figuresOf(result, place).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+            << '\n';
     else
         out << probe::textOf(result, place);
 }

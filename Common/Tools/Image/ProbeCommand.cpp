@@ -116,7 +116,7 @@ void runProbe(const ImageArguments& arguments, std::ostream& out) {
     const Json figures = probe::figuresOf(result, scene.compiled()->id, {x, y});
     if (!arguments.output.empty()) probe::writePicture(arguments.output, result);
     if (asked.json)
-        out << figures.dump(2) << '\n';
+        out << figures.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
     else
         printLines(figures, "", out);
 }
