@@ -31,7 +31,8 @@ inline constexpr const char* kSecondsField = "seconds";
 
 // Choices that earlier programs did not have and checkpoints of theirs do not tell of: connections, split camera rays,
 // paths that pixels share, motion blur.
-inline constexpr const char* kLaterFields[] = {"specular_connections", "edge_rays", "path_reuse", "shutter"};
+inline constexpr const char* kLaterFields[] = {"specular_connections", "edge_rays", "path_reuse", "shutter",
+                                               "motion_hash"};
 
 // Adds those that are missing, as "off", to what the caller compares, and returns their names.
 std::vector<std::string> addLaterFields(nlohmann::json& render);

@@ -84,6 +84,7 @@ struct ShutterFigures {
     double open = 0, close = 0; // seconds of the animation
     std::uint32_t poses = 0;    // of the scene that samples were taken of, since the engine was made
     double poseSeconds = 0;     // that posing it has taken
+    std::uint64_t endsHash = 0; // of the scene when the shutter opens and when it closes
 };
 
 struct EngineReport {

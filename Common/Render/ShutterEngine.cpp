@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "Common/Core/Hash.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Render/PictureDenoiser.h"
 #include "Common/Render/RenderParams.h"
@@ -94,7 +96,7 @@ class ShutterEngine final : public Engine {
     // Only what it is like: what is rendered are poses.
     bool setScene(std::shared_ptr<const scene::CompiledScene> scene, const std::atomic<bool>* cancel) override {
         leavePose();
-        if (!engine_->setScene(std::move(scene), cancel)) return false;
+        if (!hashEnds(cancel) || !engine_->setScene(std::move(scene), cancel)) return false;
         const EngineReport report = engine_->report();
         rates_ = report.rates;
         ratesAreOfBefore_ = report.ratesAreOfBefore;
@@ -152,6 +154,8 @@ class ShutterEngine final : public Engine {
     RenderSettings settingsOf(std::uint32_t replicate) const;
     std::optional<Task> nextTask() const;
     bool begin(const Task& task, const std::atomic<bool>* cancel);
+    bool hashEnds(const std::atomic<bool>* cancel);
+    std::shared_ptr<const scene::CompiledScene> poseAt(double share, const std::atomic<bool>* cancel) const;
     bool setPose(double share, const std::atomic<bool>* cancel);
     Film replicateFilm(std::uint32_t replicate) const;
     void collect();
@@ -183,6 +187,7 @@ class ShutterEngine final : public Engine {
     shared::Features features_;
     std::vector<EngineRate> rates_; // by which an engine was chosen for the scene
     bool ratesAreOfBefore_ = false;
+    std::uint64_t endsHash_ = 0;
     std::uint32_t poses_ = 0;
     double poseSeconds_ = 0;
 };
@@ -212,15 +217,33 @@ std::optional<ShutterEngine::Task> ShutterEngine::nextTask() const {
     return next;
 }
 
+// Null: cancelled.
+std::shared_ptr<const scene::CompiledScene> ShutterEngine::poseAt(double share, const std::atomic<bool>* cancel) const {
+    try {
+        const Interruptible interruptible(cancel);
+        return pose_(open_ + share * (close_ - open_));
+    } catch (const Interrupted&) {
+        return nullptr;
+    }
+}
+
+// Tells animations apart that pass through the same pose. False: cancelled.
+bool ShutterEngine::hashEnds(const std::atomic<bool>* cancel) {
+    endsHash_ = kHashStart;
+    for (const double share : {0.0, 1.0}) {
+        const auto scene = poseAt(share, cancel);
+        if (!scene) return false;
+        endsHash_ = hashBytes(std::as_bytes(std::span(&scene->hash, 1)), endsHash_);
+    }
+    return true;
+}
+
 // False: cancelled, and nothing is in progress.
 bool ShutterEngine::setPose(double share, const std::atomic<bool>* cancel) {
     const Stopwatch watch;
-    try {
-        const Interruptible interruptible(cancel);
-        posed_ = pose_(open_ + share * (close_ - open_));
-    } catch (const Interrupted&) {
-        return false;
-    }
+    auto scene = poseAt(share, cancel);
+    if (!scene) return false;
+    posed_ = std::move(scene);
     const bool isSet = engine_->setScene(posed_, cancel);
     poseSeconds_ += watch.seconds();
     return isSet;
@@ -306,7 +329,7 @@ EngineReport ShutterEngine::report() const {
     report.rates = rates_;
     report.ratesAreOfBefore = ratesAreOfBefore_;
     report.deviceBytes += film_.bytes();
-    report.shutter = ShutterFigures{open_, close_, poses_, poseSeconds_};
+    report.shutter = ShutterFigures{open_, close_, poses_, poseSeconds_, endsHash_};
     return report;
 }
 

@@ -202,6 +202,23 @@ TEST_F(ShutterTest, ACheckpointOfAnotherShutterIsRefused) {
               "3 " + path("sharp.rtc") + R"(: shutter is "off" in the checkpoint but "0.25,0.75" now)");
 }
 
+// The same way there and back: the scene is the same one in the middle.
+TEST_F(ShutterTest, ACheckpointOfAnotherMotionIsRefused) {
+    const auto backAndForth = [this](const char* name, float from) {
+        scene::MovingModel model;
+        const int lamp = model.addNode({{"mesh", model.addMesh(model.lamp(0.5f, 4))}});
+        model.addCamera();
+        model.move(lamp, "translation", {from, 0, 0}, {-from, 0, 0});
+        return model.save(path(name)).string();
+    };
+    const std::vector<std::string> flags = {"--spp", "4", "--shutter", "0,1"};
+    EXPECT_EQ(render(joined(flags, {"--scene", backAndForth("a.gltf", 0.5f), "--checkpoint", path("a.rtc")})),
+              ExitCode::Done);
+    const std::string said =
+        failure(joined(flags, {"--scene", backAndForth("b.gltf", -0.5f), "--resume", path("a.rtc")}));
+    EXPECT_EQ(said.rfind("3 " + path("a.rtc") + ": motion_hash is", 0), 0u) << said;
+}
+
 // Each frame has its shutter about its own time.
 TEST_F(ShutterTest, GoesWithASequence) {
     const std::string scene = movingLamp();

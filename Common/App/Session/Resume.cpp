@@ -56,7 +56,8 @@ Json identity(const RenderSettings& settings, const scene::CompiledScene& scene,
     json["russian_roulette"] = settings.russianRoulette;
     json["shutter"] = shutterText(report);
     json["camera"] = toJson(scene.camera);
-    json["scene_hash"] = hexText(scene.hash);
+    json["scene_hash"] = hexText(scene.hash); // with a shutter, in its middle
+    json["motion_hash"] = report.shutter ? hexText(report.shutter->endsHash) : "off";
     return json;
 }
 
