@@ -68,14 +68,14 @@ AnimatedModel::AnimatedModel(const std::filesystem::path& path, Moment moment)
     : file_(path), moment_(std::move(moment)) {}
 
 AnimatedModel::Start AnimatedModel::startOf(const SceneDesc& scene) {
-    return {scene.camera, boundsOfMeshes(scene)};
+    return {scene.camera, boundsOfMeshes(scene), bringsLight(scene)};
 }
 
 SceneDesc AnimatedModel::at(double seconds) {
     SceneDesc scene = file_.at({moment_.animation, seconds, moment_.isAsked});
     if (!start_) start_ = seconds == 0 ? startOf(scene) : startOf(file_.at({moment_.animation, 0}));
     if (scene.cameras.empty()) scene.camera = start_->camera;
-    addStudioIfUnlit(scene, start_->bounds);
+    if (!start_->bringsLight) addStudio(scene, start_->bounds);
     return scene;
 }
 

@@ -23,7 +23,7 @@ SceneDesc loadModelFile(const std::filesystem::path& path, const Moment& moment)
 bool isGltfFile(const std::filesystem::path& path); // by its ending
 
 // A glTF file's scene at any time of an animation; it is read once. What surrounds it follows from its start, and stays
-// where it is while the model moves: the studio, and the view where the file has no camera. Throws what loadModelFile()
+// where it is while the model moves: the studio, if there is one, and the view where the file has no camera. Throws what loadModelFile()
 // throws.
 class AnimatedModel {
   public:
@@ -36,6 +36,7 @@ class AnimatedModel {
     struct Start {
         CameraDesc camera;
         Bounds bounds;
+        bool bringsLight = false;
     };
     static Start startOf(const SceneDesc& scene);
 

@@ -168,7 +168,10 @@ Bounds boundsOfMeshes(const SceneDesc& scene) {
 }
 
 void addStudioIfUnlit(SceneDesc& scene, const Bounds& bounds) {
-    if (bringsLight(scene)) return;
+    if (!bringsLight(scene)) addStudio(scene, bounds);
+}
+
+void addStudio(SceneDesc& scene, const Bounds& bounds) {
     const StudioPlace place(bounds);
     scene.background = GradientBackground{glm::dvec3(2 * kHorizon - kZenith), glm::dvec3(kZenith)};
     std::vector<ObjectDesc> studio;

@@ -17,5 +17,6 @@ Bounds boundsOfMeshes(const SceneDesc& scene);
 // instance of it, for editors to find, and the sky. It follows from the bounds alone, but that there is no floor
 // between the model and a camera of the scene that looks up from below. With a notice.
 void addStudioIfUnlit(SceneDesc& scene, const Bounds& bounds);
+void addStudio(SceneDesc& scene, const Bounds& bounds); // in any case
 
 } // namespace rt::scene

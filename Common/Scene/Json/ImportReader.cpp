@@ -1,10 +1,13 @@
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <map>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/OtherCase.h"
 #include "Common/Core/Paths.h"
 #include "Common/Scene/Edit/ObjectPath.h"
 #include "Common/Scene/Json/Import.h"
@@ -71,7 +74,12 @@ ImportDesc readImport(const JsonNode& node, const SceneReferences& references) {
 SceneDesc loadImport(const JsonNode& node, const SceneReferences& references) {
     const ImportDesc import = readImport(node, references);
     try {
-        return loadModelFile(import.file, import.moment);
+        std::error_code none;
+        const std::filesystem::path file(import.file), other = findInOtherCase(file);
+        if (std::filesystem::exists(file, none) || other.empty()) return loadModelFile(file, import.moment);
+        SceneDesc scene = loadModelFile(other, import.moment);
+        scene.notices.push_back("the imported file is named in other case: " + other.filename().string());
+        return scene;
     } catch (const UsageError& error) { // of an animation
         node.fail(error.what());
     }
@@ -188,9 +196,11 @@ class UsedNames {
 
     void check() const {
         for (const auto& [name, material] : scene_.materials)
-            forEachTextureName(material, [&](const std::string& used) { expectTexture(used, "/materials/" + name); });
+            forEachTextureName(
+                material, [&, &owner = name](const std::string& used) { expectTexture(used, "/materials/" + owner); });
         for (const auto& [name, texture] : scene_.textures)
-            forEachInnerTexture(texture, [&](const std::string& used) { expectTexture(used, "/textures/" + name); });
+            forEachInnerTexture(
+                texture, [&, &owner = name](const std::string& used) { expectTexture(used, "/textures/" + owner); });
         for (const auto& [name, objects] : scene_.prototypes) check(objects, "/prototypes/" + name);
         check(scene_.objects, "/objects");
     }
