@@ -1,10 +1,13 @@
-// The search in texts that people type.
+// Texts in which upper and lower case of ASCII are the same.
 #pragma once
+#include <string>
 #include <string_view>
 
 namespace rt {
 
-// Whether a text contains another one, upper and lower case of ASCII being the same.
+std::string lowerCase(std::string text);
+
+// Whether a text contains another one.
 bool contains(std::string_view text, std::string_view part);
 
 } // namespace rt

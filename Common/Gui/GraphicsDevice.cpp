@@ -1,10 +1,9 @@
 #include "Common/Gui/GraphicsDevice.h"
 
-#include <algorithm>
-#include <cctype>
 #include <optional>
 #include <vector>
 
+#include "Common/Core/TextSearch.h"
 #include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/DeviceSelection.h"
 
@@ -12,11 +11,6 @@ namespace rt::gui {
 namespace {
 
 using vulkan::check;
-
-std::string lowerCase(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
 
 bool presents(VkPhysicalDevice device, std::uint32_t family, VkSurfaceKHR surface) {
     VkBool32 answer = VK_FALSE;
@@ -81,8 +75,7 @@ void GraphicsDevice::choose(const std::string& preferred) {
         if (!vulkan::offersExtension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) continue;
         const auto family = presentingFamily(device, surface_);
         if (!family) continue;
-        const bool named =
-            !preferred.empty() && lowerCase(properties.deviceName).find(lowerCase(preferred)) != std::string::npos;
+        const bool named = !preferred.empty() && contains(properties.deviceName, preferred);
         const int score = rank(properties.deviceType) + (named ? 10 : 0);
         if (score <= best) continue;
         best = score;

@@ -1,7 +1,5 @@
 #include "Common/Gui/MaterialTools.h"
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <utility>
 
@@ -10,6 +8,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Core/TextSearch.h"
 #include "Common/Gui/Gui.h"
 #include "Common/Scene/Edit/MaterialTransfer.h"
 #include "Common/Scene/MaterialX/MaterialXLoader.h"
@@ -143,10 +142,7 @@ void pickMaterial(Gui& gui, const std::array<std::uint32_t, 2>& pixel) {
 }
 
 bool isMaterialFile(const std::string& file) {
-    std::string ending = fs::path(file).extension().string();
-    const auto lower = [](unsigned char c) { return static_cast<char>(std::tolower(c)); };
-    std::transform(ending.begin(), ending.end(), ending.begin(), lower);
-    return ending == ".mtlx";
+    return lowerCase(fs::path(file).extension().string()) == ".mtlx";
 }
 
 void openMaterials(Gui& gui, const std::string& file) {

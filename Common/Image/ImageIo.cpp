@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Printable.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Core/TextSearch.h"
 #include "Common/Image/Codecs.h"
 #include "Common/Image/PngText.h"
 #include "Common/Shared/Tonemap.h"
@@ -51,9 +51,7 @@ const char* knownElsewhere(const std::string& extension) {
 // The codec of the name's extension; throws `Unknown`, with those that are allowed, when there is none.
 template <class Unknown>
 Codec codecOf(const fs::path& path, bool writing) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lowerCase(path.extension().string());
     std::string allowed;
     for (const Format& format : kFormats) {
         if (writing && format.codec == Codec::ReadOnly) continue;

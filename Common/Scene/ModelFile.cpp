@@ -1,10 +1,9 @@
 #include "Common/Scene/ModelFile.h"
 
-#include <algorithm>
-#include <cctype>
 #include <map>
 #include <utility>
 
+#include "Common/Core/TextSearch.h"
 #include "Common/Scene/Obj/ObjLoader.h"
 #include "Common/Scene/Pbrt/PbrtLoader.h"
 #include "Common/Scene/Studio.h"
@@ -45,9 +44,7 @@ const std::map<std::string, LoadModel>& modelLoaders() {
 } // namespace
 
 std::string kindOfFile(const std::filesystem::path& path) {
-    std::string kind = path.extension().string();
-    const auto lower = [](unsigned char c) { return static_cast<char>(std::tolower(c)); };
-    std::transform(kind.begin(), kind.end(), kind.begin(), lower);
+    const std::string kind = lowerCase(path.extension().string());
     return kind == ".gz" ? kindOfFile(path.stem()) + kind : kind;
 }
 

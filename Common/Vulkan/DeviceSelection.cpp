@@ -1,12 +1,12 @@
 #include "Common/Vulkan/DeviceSelection.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstring>
 #include <optional>
 
 #include "Common/Core/Printable.h"
+#include "Common/Core/TextSearch.h"
 #include "Common/Vulkan/Check.h"
 
 namespace rt::vulkan {
@@ -178,11 +178,6 @@ int rank(VkPhysicalDeviceType type) {
     }
 }
 
-std::string lowerCase(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
 std::string lacks(const DeviceInfo& device, RayTracing needed) {
     if (!device.missing.empty()) return device.missing;
     return needed == RayTracing::Query ? device.missingForQuery : device.missingForPipeline;
@@ -201,7 +196,7 @@ const DeviceInfo* findRequested(const std::vector<DeviceInfo>& devices, const st
     }
     const DeviceInfo* found = nullptr;
     for (const DeviceInfo& device : devices) {
-        if (lowerCase(device.name).find(lowerCase(request)) == std::string::npos) continue;
+        if (!rt::contains(device.name, request)) continue;
         if (found == nullptr || (device.serves(needed) && !found->serves(needed))) found = &device;
     }
     return found;

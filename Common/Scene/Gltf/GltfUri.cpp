@@ -8,6 +8,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Printable.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Core/TextSearch.h"
 
 namespace rt::scene {
 
@@ -41,13 +42,6 @@ std::string withoutEscapes(std::string_view uri) {
     return text;
 }
 
-std::string inLowerCase(std::string_view text) {
-    std::string lower(text);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return lower;
-}
-
 // Spaces and line ends count for nothing, and neither does what follows the first "=".
 std::vector<std::byte> fromBase64(std::string_view text, const JsonNode& uri) {
     std::vector<std::byte> bytes;
@@ -76,14 +70,14 @@ bool hasScheme(std::string_view uri) {
 } // namespace
 
 bool isDataUri(std::string_view uri) {
-    return inLowerCase(uri.substr(0, 5)) == "data:";
+    return lowerCase(std::string(uri.substr(0, 5))) == "data:";
 }
 
 std::vector<std::byte> bytesOfDataUri(const JsonNode& uri) {
     const std::string text = uri.string();
     const std::size_t comma = text.find(',');
     if (comma == text.npos) uri.fail("there is no comma between the media type and the data");
-    const std::string type = inLowerCase(std::string_view(text).substr(0, comma));
+    const std::string type = lowerCase(text.substr(0, comma));
     const std::string_view data = std::string_view(text).substr(comma + 1);
     constexpr std::string_view kBase64 = ";base64";
     const bool isBase64 =
