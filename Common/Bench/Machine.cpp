@@ -1,20 +1,18 @@
 #include "Common/Bench/Machine.h"
 
 #include <chrono>
-#include <ctime>
 #include <thread>
 
 #include "Common/Core/BuildInfo.h"
 #include "Common/Core/CpuFeatures.h"
+#include "Common/Core/TimeText.h"
 
 namespace rt::bench {
 namespace {
 
 std::string today() {
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    char text[32] = "";
-    if (const std::tm* utc = std::gmtime(&now)) std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", utc);
-    return text;
+    using std::chrono::system_clock;
+    return utcText(system_clock::to_time_t(system_clock::now()), "%Y-%m-%d %H:%M UTC");
 }
 
 std::string compiler() {

@@ -17,6 +17,7 @@
 #include "Common/Core/OutputFile.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Core/TimeText.h"
 #include "Common/Scene/Json/JsonNode.h"
 #include "Common/Scene/Json/JsonText.h"
 
@@ -33,19 +34,6 @@ constexpr std::size_t kHashDigits = 16;
 
 fs::path lockOf(const fs::path& file) {
     return fs::path(file) += ".lock";
-}
-
-std::string localTime(std::int64_t seconds) {
-    const auto time = static_cast<std::time_t>(seconds);
-    std::tm local{};
-#ifdef _WIN32
-    localtime_s(&local, &time);
-#else
-    localtime_r(&time, &local);
-#endif
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &local);
-    return text;
 }
 
 std::int64_t secondsSinceEpoch() {
@@ -122,7 +110,7 @@ std::optional<LeftAutosave> lookAtAutosave(const fs::path& file) {
     std::optional<LeftAutosave> left = readHeader(lines.front(), file);
     if (!left || lines.size() == 1) return left;
     const TimedStep last = timedStep(lines.back(), file);
-    left->when = localTime(last.seconds);
+    left->when = localTimeText(static_cast<std::time_t>(last.seconds), "%Y-%m-%d %H:%M");
     if (last.leavesUnsaved) left->steps = lines.size() - 1;
     return left;
 }

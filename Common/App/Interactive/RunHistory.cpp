@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <fstream>
 #include <iomanip>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "Common/App/Platform.h"
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/TimeText.h"
 #include "Common/Render/Names.h"
 
 namespace rt::app {
@@ -209,16 +209,8 @@ EnginePair newestOfEqualWork(const std::vector<const RunRecord*>& newestFirst) {
 }
 
 std::string utcNow() {
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    std::tm utc{};
-#ifdef _WIN32
-    gmtime_s(&utc, &now);
-#else
-    gmtime_r(&now, &utc);
-#endif
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-    return text;
+    using std::chrono::system_clock;
+    return utcText(system_clock::to_time_t(system_clock::now()), "%Y-%m-%dT%H:%M:%SZ");
 }
 
 std::filesystem::path RunHistory::userFile() {
