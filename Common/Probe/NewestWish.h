@@ -11,6 +11,8 @@
 #include <thread>
 #include <utility>
 
+#include "Common/Render/Stopwatch.h"
+
 namespace rt::probe {
 
 // What there is of an answer so far.
@@ -45,7 +47,7 @@ class NewestWish {
     NewestWish(const NewestWish&) = delete;
     NewestWish& operator=(const NewestWish&) = delete;
 
-    // The same wish once more changes nothing.
+    // A wish that equals the one before changes nothing.
     void wish(std::optional<Wish> wish) {
         {
             const std::scoped_lock lock(mutex_);
@@ -74,6 +76,22 @@ class NewestWish {
             state_ = std::move(state);
         }
         onChange_();
+    }
+
+    // Advances work on the wish at hand until it is done or there is a newer wish, but not before its first results
+    // are there. These are shown, and then what there is every so many seconds, and all of it.
+    template <class Work, class Show>
+    void advance(Work& work, double seconds, const Show& show) const {
+        app::Stopwatch sinceShown;
+        for (bool isFirst = true; !work.isDone();) {
+            if (isStale() && work.hasFirst() && !isFirst) return;
+            work.advance();
+            const bool isDue = isFirst ? work.hasFirst() : sinceShown.seconds() > seconds;
+            if (!isDue && !work.isDone()) continue;
+            isFirst = false;
+            show();
+            sinceShown = {};
+        }
     }
 
   private:

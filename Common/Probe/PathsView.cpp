@@ -5,7 +5,6 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Probe/NextHit.h"
-#include "Common/Render/Stopwatch.h"
 
 namespace rt::probe {
 namespace {
@@ -17,13 +16,6 @@ constexpr float kNearEnd = 1e-3f;            // of the way to a piece: what is c
 bool isOfSameSamples(const PathsWish& a, PathsWish b) {
     b.eye = a.eye;
     return a == b;
-}
-
-app::Options optionsFor(const PathsWish& wish) {
-    app::Options options;
-    options.settings = wish.rendering;
-    options.size = {wish.rendering.width, wish.rendering.height, {}};
-    return options;
 }
 
 bool isHiddenFrom(const SceneFormulas& scene, const shared::vec3& eye, const shared::vec3& point) {
@@ -70,14 +62,6 @@ void PathsView::work(const PathsWish* wish) {
     done_.reset();
 }
 
-// What has been built for the scene stays.
-void PathsView::provide(const PathsWish& wish) {
-    if (!formulas_ || formulas_->compiled() != wish.scene)
-        formulas_ = std::make_shared<SceneFormulas>(wish.scene, optionsFor(wish), 0.0);
-    else if (formulas_->options().settings != wish.rendering)
-        formulas_ = formulas_->with(optionsFor(wish));
-}
-
 PathsShown PathsView::shownOf(const PathsWish& wish, PathsResult result) const {
     PathsShown shown{std::move(result), {}};
     shown.lines = linesSeenFrom(*formulas_, wish.eye, shown.paths());
@@ -85,24 +69,17 @@ PathsShown PathsView::shownOf(const PathsWish& wish, PathsResult result) const {
 }
 
 void PathsView::answer(const PathsWish& wish) {
-    provide(wish);
+    formulas_ = formulasFor(wish.scene, wish.rendering, std::move(formulas_));
     if (!formulas_->prepare(wishes_.isSceneStale())) return;
     if (done_ && isOfSameSamples(wish, done_->wish)) // the camera has moved alone
         return wishes_.publish(wish, "", shownOf(wish, done_->result.result));
     done_.reset();
     PathsRun run(*formulas_, wish.camera, wish.pixel[0], wish.pixel[1], wish.settings);
-    app::Stopwatch sincePublished;
-    for (bool isFirst = true; !run.isDone();) {
-        if (wishes_.isStale() && run.hasFirst() && !isFirst) return;
-        run.advance();
-        const bool isDue = isFirst ? run.hasFirst() : sincePublished.seconds() > kPathsPublishSeconds;
-        if (!isDue && !run.isDone()) continue;
-        isFirst = false;
+    wishes_.advance(run, kPathsPublishSeconds, [&] {
         PathsShown shown = shownOf(wish, run.result());
         if (run.isDone()) done_ = PathsState{wish, "", shown, 0};
         wishes_.publish(wish, "", std::move(shown));
-        sincePublished = {};
-    }
+    });
 }
 
 } // namespace rt::probe

@@ -37,7 +37,7 @@ struct PathLine {
 struct PathsShown {
     PathsResult result;
     std::vector<PathLine> lines;
-    // Those that the lines are of.
+    // That `lines` have one of for each.
     const std::vector<ListedPath>& paths() const { return result.settings.selected ? result.selected : result.listed; }
 };
 
@@ -60,7 +60,6 @@ class PathsView {
   private:
     void work(const PathsWish* wish);
     void answer(const PathsWish& wish);
-    void provide(const PathsWish& wish);
     PathsShown shownOf(const PathsWish& wish, PathsResult result) const;
 
     std::shared_ptr<const SceneFormulas> formulas_; // of the thread, for the last wish

@@ -8,20 +8,12 @@
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
 #include "Common/Probe/ProbeReport.h"
-#include "Common/Render/Stopwatch.h"
 #include "Common/Scene/CameraRecord.h"
 
 namespace rt::probe {
 namespace {
 
 constexpr double kPublishSeconds = 0.06; // between two results of one wish
-
-app::Options optionsOf(const ProbeWish& wish) {
-    app::Options options;
-    options.settings = wish.rendering;
-    options.size = {wish.rendering.width, wish.rendering.height, {}};
-    return options;
-}
 
 std::optional<Probe> placeOf(const ProbeWish& wish, const SceneFormulas& formulas) {
     const shared::Camera camera =
@@ -39,9 +31,9 @@ std::string whyNothingAt(const std::optional<Probe>& probe, const Strategy& stra
 ProbeSaved saveWish(const std::string& file, ProbeWish wish, const std::atomic<bool>& isGivenUp) {
     wish.settings.projections = {Projection::Sphere, Projection::Hemisphere};
     try {
-        const SceneFormulas formulas(wish.scene, optionsOf(wish), 0.0);
-        if (!formulas.prepare(isGivenUp)) return {file, ""};
-        const std::optional<Probe> probe = placeOf(wish, formulas);
+        const auto formulas = formulasFor(wish.scene, wish.rendering);
+        if (!formulas->prepare(isGivenUp)) return {file, ""};
+        const std::optional<Probe> probe = placeOf(wish, *formulas);
         if (std::string why = whyNothingAt(probe, wish.settings.strategy); !why.empty()) return {file, std::move(why)};
         ProbeRun work(*probe, wish.settings);
         while (!work.isDone()) {
@@ -97,31 +89,14 @@ void ProbeView::work(const ProbeWish* wish) {
     }
 }
 
-// What has been built for the scene stays.
-void ProbeView::provide(const ProbeWish& wish) {
-    if (!formulas_ || formulas_->compiled() != wish.scene)
-        formulas_ = std::make_shared<SceneFormulas>(wish.scene, optionsOf(wish), 0.0);
-    else if (formulas_->options().settings != wish.rendering)
-        formulas_ = formulas_->with(optionsOf(wish));
-}
-
 void ProbeView::answer(const ProbeWish& wish) {
-    provide(wish);
+    formulas_ = formulasFor(wish.scene, wish.rendering, std::move(formulas_));
     if (!formulas_->prepare(wishes_.isSceneStale())) return;
     const std::optional<Probe> probe = placeOf(wish, *formulas_);
     if (std::string why = whyNothingAt(probe, wish.settings.strategy); !why.empty())
         return wishes_.publish(wish, std::move(why), {});
     ProbeRun work(*probe, wish.settings);
-    app::Stopwatch sincePublished;
-    for (bool isFirst = true; !work.isDone();) {
-        if (wishes_.isStale() && work.hasFirst() && !isFirst) return;
-        work.advance();
-        const bool isDue = isFirst ? work.hasFirst() : sincePublished.seconds() > kPublishSeconds;
-        if (!isDue && !work.isDone()) continue;
-        isFirst = false;
-        wishes_.publish(wish, "", work.result());
-        sincePublished = {};
-    }
+    wishes_.advance(work, kPublishSeconds, [&] { wishes_.publish(wish, "", work.result()); });
 }
 
 } // namespace rt::probe

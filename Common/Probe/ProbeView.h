@@ -55,7 +55,6 @@ class ProbeView {
   private:
     void work(const ProbeWish* wish);
     void answer(const ProbeWish& wish);
-    void provide(const ProbeWish& wish);
 
     const std::function<void()> onChange_;
     std::shared_ptr<const SceneFormulas> formulas_; // of the thread, for the last wish

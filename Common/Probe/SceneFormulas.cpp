@@ -52,4 +52,16 @@ shared::vec3 SceneFormulas::toWorld(const shared::vec3& scene) const {
     return shared::vec3(glm::dvec3(scene) + compiled_->origin);
 }
 
+std::shared_ptr<const SceneFormulas> formulasFor(const std::shared_ptr<const scene::CompiledScene>& scene,
+                                                 const app::RenderSettings& rendering,
+                                                 std::shared_ptr<const SceneFormulas> kept) {
+    const bool isOfScene = kept && kept->compiled() == scene;
+    if (isOfScene && kept->options().settings == rendering) return kept;
+    app::Options options;
+    options.settings = rendering;
+    options.size = {rendering.width, rendering.height, {}};
+    if (isOfScene) return kept->with(std::move(options));
+    return std::make_shared<SceneFormulas>(scene, std::move(options), 0.0);
+}
+
 } // namespace rt::probe

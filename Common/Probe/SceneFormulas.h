@@ -55,4 +55,9 @@ class SceneFormulas {
     std::shared_ptr<SharedAccel> accel_ = std::make_shared<SharedAccel>();
 };
 
+// Of a scene as these settings would render it. What `kept`, which may be null, has built for the scene stays.
+std::shared_ptr<const SceneFormulas> formulasFor(const std::shared_ptr<const scene::CompiledScene>& scene,
+                                                 const app::RenderSettings& rendering,
+                                                 std::shared_ptr<const SceneFormulas> kept = nullptr);
+
 } // namespace rt::probe
