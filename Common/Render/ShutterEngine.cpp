@@ -86,8 +86,8 @@ class FeatureSums {
     std::uint32_t count_ = 0;
 };
 
-// Snapshots, packed tiles and live denoisers are those that any engine has, of the film here: that of `engine_` is of one
-// replicate, and what it sees is one pose.
+// Snapshots, packed tiles and live denoisers are those that any engine has, of the film here: that of `engine_` is of
+// one replicate, and what it sees is one pose.
 class ShutterEngine final : public Engine {
   public:
     ShutterEngine(std::unique_ptr<Engine> engine, double open, double close, PoseScene pose)

@@ -23,8 +23,8 @@ SceneDesc loadModelFile(const std::filesystem::path& path, const Moment& moment)
 bool isGltfFile(const std::filesystem::path& path); // by its ending
 
 // A glTF file's scene at any time of an animation; it is read once. What surrounds it follows from its start, and stays
-// where it is while the model moves: the studio, if there is one, and the view where the file has no camera. Throws what loadModelFile()
-// throws.
+// where it is while the model moves: the studio, if there is one, and the view where the file has no camera. Throws
+// what loadModelFile() throws.
 class AnimatedModel {
   public:
     // Of the moment all but its time.

@@ -58,10 +58,10 @@ def probe(scene: Compiled, x: int, y: int, strategy: str | int = "lights", heigh
 
 
 def pixel_paths(scene: Compiled, x: int, y: int, samples: int = 256, sample: int | None = None) -> dict[str, Any]:
-    """Why pixel x, y of scene.compile() is noisy, as `ray-tracing-image paths --json` tells: its samples, traced again as a
-    render with the flags that the scene was compiled for traces them, their variance by how light was found ("techniques")
-    and by bounces, and the brightest paths with densities, weights and lines; with `sample` all paths of that one, as
-    "selected".
+    """Why pixel x, y of scene.compile() is noisy, as `ray-tracing-image paths --json` tells: its samples, traced again
+    as a render with the flags that the scene was compiled for traces them, their variance by how light was found
+    ("techniques") and by bounces, and the brightest paths with densities, weights and lines; with `sample` all paths of
+    that one, as "selected".
     """
     if not (1 <= samples <= 1 << 20 and (sample is None or 0 <= sample < samples)):
         raise ValueError(f"samples, sample: expected 1 to {1 << 20} samples and one of them; got {samples}, {sample}")

@@ -202,7 +202,7 @@ TEST_F(ShutterTest, ACheckpointOfAnotherShutterIsRefused) {
               "3 " + path("sharp.rtc") + R"(: shutter is "off" in the checkpoint but "0.25,0.75" now)");
 }
 
-// The same way there and back: the scene is the same one in the middle.
+// A lamp that goes one way and one that goes back are the same scene in the middle of the shutter.
 TEST_F(ShutterTest, ACheckpointOfAnotherMotionIsRefused) {
     const auto backAndForth = [this](const char* name, float from) {
         scene::MovingModel model;

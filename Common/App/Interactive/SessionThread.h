@@ -1,5 +1,5 @@
-// What the session's thread does for one viewport: it alone has the engine, and strings together what was asked for, the
-// film, its pictures, its reference and its files.
+// What the session's thread does for one viewport: it alone has the engine, and strings together what was asked for,
+// the film, its pictures, its reference and its files.
 #pragma once
 #include <memory>
 #include <optional>

@@ -24,8 +24,8 @@ struct Size {
     double bytes() const { return kPixelBytes * pixels(); }
 };
 
-// Of an image of this aspect ratio whose memory, with that of other viewports, leaves half of the machine's to others: one digit too many is not to
-// end the program.
+// Of an image of this aspect ratio whose memory, with that of other viewports, leaves half of the machine's to others:
+// one digit too many is not to end the program.
 std::uint32_t maxWidth(const Gui& gui, double aspect) {
     const double minimum = 1024, side = image::kMaxImageSide * std::min(1.0, aspect);
     const double all = 0.5 * static_cast<double>(app::machineBytes()) / kPixelBytes;

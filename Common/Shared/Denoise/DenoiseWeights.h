@@ -83,9 +83,9 @@ RT_FN float denoiseError(DenoisedValue a, DenoisedValue b, float partnerNoise) {
     return 0.5f * (changeA * changeA + changeB * changeB + through * noise);
 }
 
-// The error of a candidate by which a pixel chooses, by the mean of all around it and of those but the nearest. The least
-// of several errors that chance has a part in is below what it stands for, the more so the more of it is the pixel's own;
-// but a bright sample that a candidate keeps is seen in the pixel alone.
+// The error of a candidate by which a pixel chooses, by the mean of all around it and of those but the nearest. The
+// least of several errors that chance has a part in is below what it stands for, the more so the more of it is the
+// pixel's own; but a bright sample that a candidate keeps is seen in the pixel alone.
 RT_FN float denoiseChoiceError(float meanOfAll, float meanOfOthers) {
     return max(meanOfAll, meanOfOthers);
 }

@@ -46,7 +46,7 @@ void addName(CLI::App& app, const std::string& flag, std::string& target, const 
     app.add_option(flag, target, help)->check(isNameIn(table))->type_name(alternativesOf(table));
 }
 
-// Likewise; `target` becomes the row's value.
+// A flag with a value of a table; `target` becomes the row's value.
 template <class E, std::size_t N>
 void addChoice(CLI::App& app, const std::string& flag, E& target, const app::Named<E> (&table)[N],
                const std::string& help) {
