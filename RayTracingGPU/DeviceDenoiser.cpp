@@ -46,6 +46,8 @@ Shader shaderOf(DenoisePass pass) {
             return Shader::DenoisePrepare;
         case DenoisePass::Mean:
             return Shader::DenoiseMean;
+        case DenoisePass::Guide:
+            return Shader::DenoiseGuide;
         case DenoisePass::Features:
             return Shader::DenoiseFeatures;
         case DenoisePass::Fit:
@@ -132,7 +134,7 @@ DeviceDenoiser::DeviceDenoiser(vulkan::VulkanContext& context, DenoisePipelines&
     guides_ = make(2 * bordered * kFourFloats);
     features_ = make(std::max(inReach * kFourFloats, 3 * pixels_ * kThreeFloats));
     axes_ = make(tiles * sizeof(std::uint32_t));
-    filtered_ = make(2 * kDenoiseBandwidths * pixels_ * kFourFloats);
+    filtered_ = make(2 * std::max(bordered, kDenoiseBandwidths * pixels_) * kFourFloats);
     values_ = make(pixels_ * kFourFloats);
     means_ = make(pixels_ * kFourFloats);
     kept_ = make(pixels_ * sizeof(float));
@@ -256,7 +258,9 @@ bool DeviceDenoiser::run(std::uint64_t samplesOfHalf, std::uint32_t dependentSid
     const auto rows = static_cast<std::uint32_t>(shared::denoisePlaneRows(height_));
     runPass(DenoisePass::Prepare, launch,
             {groupsFor(pitch, shared::kDenoiseColumns), groupsFor(rows, shared::kDenoiseRows), 1});
-    mean(shared::kMeansToGuides);
+    mean(shared::kMeansOfTones);
+    if (samplesOfHalf < shared::kDenoiseRawGuideSamples)
+        runPass(DenoisePass::Guide, launch, {groups().width, groups().height, 2});
     runPass(DenoisePass::Features, launch,
             {groupsFor(width_, shared::kDenoiseTile), groupsFor(height_, shared::kDenoiseTile), 1});
     if (!fit(launch, cancel)) return false;

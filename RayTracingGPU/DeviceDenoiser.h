@@ -30,6 +30,7 @@ enum class DenoisePass {
     Depths,
     Prepare,
     Mean,
+    Guide,
     Features,
     Fit,
     Errors,
@@ -40,9 +41,9 @@ enum class DenoisePass {
     LivePrepare,
     Live
 };
-inline constexpr std::size_t kDenoisePasses = 12;
+inline constexpr std::size_t kDenoisePasses = 13;
 inline constexpr std::array<const char*, kDenoisePasses> kDenoisePassNames{
-    "depths", "prepare", "mean",    "features",      "fit",          "errors",
+    "depths", "prepare", "mean",    "guide",         "features",     "fit", "errors",
     "mix",    "blend",   "history", "history_merge", "live_prepare", "live"};
 
 // The compiled shaders, for pictures of any size. Each is compiled when it is first needed.

@@ -32,6 +32,7 @@
     X(SampleList, SampleList_comp)                             \
     X(DenoisePrepare, DenoisePrepare_comp)                     \
     X(DenoiseMean, DenoiseMean_comp)                           \
+    X(DenoiseGuide, DenoiseGuide_comp)                         \
     X(DenoiseFeatures, DenoiseFeatures_comp)                   \
     X(DenoiseFit, DenoiseFit_comp)                             \
     X(DenoiseErrors, DenoiseErrors_comp)                       \

@@ -12,6 +12,11 @@ int planeIndex(ivec2 pixel, int half_) {
            kDenoiseBorder;
 }
 
+// Tones of a half, and their variance, until there is something filtered.
+vec4 tonesAt(ivec2 pixel, int half_) {
+    return launch.filtered.at[planeIndex(pixel, half_)];
+}
+
 // What a candidate makes of a pixel of a half.
 struct Candidate {
     vec3 filtered;

@@ -11,10 +11,10 @@ float candidateError(uint candidate, ivec2 pixel) {
     DenoisedValue values[2][3];
     for (int half_ = 0; half_ < 2; half_++) {
         Candidate made = candidateOf(candidate, pixel, half_);
-        vec4 tones = launch.guides.at[planeIndex(pixel, half_)];
+        vec4 radiance = launch.radiance.at[planeIndex(pixel, half_)];
         for (int channel = 0; channel < 3; channel++) {
             values[half_][channel].filtered = denoiseTone(made.filtered[channel]);
-            values[half_][channel].raw = tones[channel];
+            values[half_][channel].raw = denoiseTone(radiance[channel]);
             values[half_][channel].ownFactor = made.factors.x;
             values[half_][channel].partnerFactor = made.factors.y;
         }

@@ -27,6 +27,7 @@ void main() {
         vec4 radiance = radianceOf(pixel, uint(half_));
         tones[half_] = tonesOf(radiance);
         launch.radiance.at[planeIndex(pixel, half_)] = radiance;
+        launch.filtered.at[planeIndex(pixel, half_)] = tones[half_];
         launch.guides.at[planeIndex(pixel, half_)] = tones[half_];
     }
     if (!isInside(pixel)) return;

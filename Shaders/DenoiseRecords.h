@@ -3,6 +3,7 @@
 #ifndef RT_SHADERS_DENOISE_RECORDS_H
 #define RT_SHADERS_DENOISE_RECORDS_H
 #include "Common/Shared/Denoise/DenoiseFit.h"
+#include "Common/Shared/Denoise/DenoiseGuide.h"
 #include "Common/Shared/Denoise/DenoiseHistory.h"
 #include "Common/Shared/Denoise/DenoiseWeights.h"
 #include "Records.h"
@@ -30,9 +31,9 @@ const uint kDenoiseMixSums = 8u;                                // from here on 
 
 // What a pass that averages over squares does with the means.
 const uint kMeansAsTheyAre = 0u;
-const uint kMeansToGuides = 1u;  // the first component is the variance of both guides
+const uint kMeansOfTones = 1u;   // the first component is the variance of a tone of either half
 const uint kMeansPositive = 2u;  // negative ones become 0
-const uint kMeansToTones = 3u;   // as to guides, where these are tones of LiveLaunch
+const uint kMeansToTones = 3u;   // the same for the tones of LiveLaunch
 const uint kMeansOfHistory = 4u; // as they are, over the pixels that a variance is averaged over
 
 // Push constants of all passes. Halves follow each other in what has both.
@@ -40,10 +41,12 @@ struct DenoiseLaunch {
     MutableVectorArray halves;   // radiance as rendered, row by row
     MutableFloatArray surfaces;  // kSurfaceValues of each pixel
     PixelPlane radiance;         // bordered; the last component is 1 in the image
-    PixelPlane guides;           // bordered: tones, and their variance, summed over the channels
+    PixelPlane guides;           // bordered: what pixels are compared by (DenoiseGuide.h), tones and their variance,
+                                 // summed over the channels
     PixelPlane features;         // of the surface, of what is in reach of each tile
     MutableWordArray axes;       // how many of these each tile has
-    PixelPlane filtered;         // by each candidate: radiance; the two factors, packed
+    PixelPlane filtered;         // by each candidate: radiance; the two factors, packed. Before that, bordered: the
+                                 // tones that guides are made of, and their variance
     PixelPlane values;           // what is averaged over squares: variances; errors of the candidates; squared errors.
                                  // Between the last two: the weight of each candidate
     PixelPlane means;            // of these

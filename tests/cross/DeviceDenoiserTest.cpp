@@ -117,7 +117,9 @@ void expectTheSame(const DenoiseInput& input, std::uint32_t dependentSide) {
     EXPECT_LE(relMse(got.bandwidth, expected.bandwidth), 0.05); // a pixel whose choice is a matter of rounding: 0.016
     EXPECT_NEAR(got.relmse.value, expected.relmse.value, 0.02 * expected.relmse.value + 1e-7);
     EXPECT_NEAR(got.relmse.standardError, expected.relmse.standardError, 0.02 * expected.relmse.standardError + 1e-7);
-    for (std::size_t i = 0; i < got.shares.size(); ++i) EXPECT_NEAR(got.shares[i], expected.shares[i], 0.01);
+    // One such pixel is a part of the choice of 25, or of five in a row.
+    const double share = 0.01 + 1 / static_cast<double>(got.bandwidth.data.size());
+    for (std::size_t i = 0; i < got.shares.size(); ++i) EXPECT_NEAR(got.shares[i], expected.shares[i], share);
 }
 
 TEST_F(DeviceDenoiserTest, MakesThePictureOfTheCpu) {

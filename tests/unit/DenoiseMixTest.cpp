@@ -113,7 +113,7 @@ TEST(DenoiseMix, NoiseOfOneHalfIsNoErrorOfTheFilter) {
 }
 
 // A flat picture with few bright samples, which are most of the sums of a cell: they are filtered with the mix as they
-// are without.
+// are without, by fewer samples and less noisy guides.
 TEST(DenoiseMix, BrightSamplesDoNotComeBack) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> chance(0, 1);
@@ -124,7 +124,7 @@ TEST(DenoiseMix, BrightSamplesDoNotComeBack) {
     input.samplesOfHalf = shared::kDenoiseMixSamples - 1;
     const double withoutMix = relMseFrom(image::denoise(input, 1).picture, truth);
     input.samplesOfHalf = shared::kDenoiseMixSamples;
-    EXPECT_LT(relMseFrom(image::denoise(input, 1).picture, truth), 1.05 * withoutMix);
+    EXPECT_LT(relMseFrom(image::denoise(input, 1).picture, truth), 1.15 * withoutMix);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "Common/Image/Denoise/DenoiseFilter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -17,10 +18,10 @@ namespace {
 using shared::kDenoiseBandwidths;
 
 // The best that this processor runs, of those that the program was built with.
-DenoiseKernel bestKernel() {
+DenoiseKernels bestKernels() {
     const InstructionSet best = bestInstructionSet();
 #define RT_TAKE(set, suffix) \
-    if (best >= InstructionSet::set) return denoiseKernel_##suffix();
+    if (best >= InstructionSet::set) return denoiseKernels_##suffix();
     RT_KERNEL_SETS(RT_TAKE)
 #undef RT_TAKE
     failWithoutKernels(best);
@@ -41,15 +42,71 @@ std::vector<SurfaceFeatures> surfaceFeatures(const DenoiseInput& input, std::siz
     return features;
 }
 
+// ---- guides --------------------------------------------------------------------------------------------------------
+
+// A plane with a border of zeros, and its first pixel inside of that.
+class BorderedPlane {
+  public:
+    BorderedPlane(std::size_t width, std::size_t height)
+        : pitch_(width + 2 * kBorder), data_((height + 2 * kBorder) * pitch_ + kDenoiseGuideOverrun) {}
+    explicit BorderedPlane(const Plane& plane) : BorderedPlane(plane.width(), plane.height()) {
+        for (std::size_t y = 0; y < plane.height(); ++y) std::copy_n(plane.row(y), plane.width(), row(y));
+    }
+    std::size_t pitch() const { return pitch_; }
+    float* row(std::size_t y) { return data_.data() + (y + kBorder) * pitch_ + kBorder; }
+
+  private:
+    static constexpr std::size_t kBorder = shared::kDenoiseGuideBorder;
+    std::size_t pitch_;
+    std::vector<float> data_;
+};
+
+void makeGuide(Half& half, BorderedPlane& variance, BorderedPlane& inside, const DenoiseKernels& kernels,
+               std::size_t threads) {
+    const std::size_t width = half.tones[0].width(), height = half.tones[0].height();
+    std::array<BorderedPlane, 3> tones{BorderedPlane(half.tones[0]), BorderedPlane(half.tones[1]),
+                                       BorderedPlane(half.tones[2])};
+    half.guideVariance = Plane(width, height);
+    for (Plane& plane : half.guide) plane = Plane(width, height);
+    parallelFor(threads, height, [&](std::size_t y) {
+        interruptionPoint();
+        DenoiseGuideRow row;
+        row.width = static_cast<int>(width);
+        row.pitch = static_cast<int>(variance.pitch());
+        row.variance = variance.row(y);
+        row.inside = inside.row(y);
+        row.guideVariance = half.guideVariance.row(y);
+        for (std::size_t c = 0; c < 3; ++c) {
+            row.tones[c] = tones[c].row(y);
+            row.guide[c] = half.guide[c].row(y);
+        }
+        kernels.smoothGuideRow(row);
+    });
+}
+
+void makeGuides(Halves& halves, const DenoiseKernels& kernels, std::size_t threads) {
+    if (halves.hasRawGuides()) {
+        for (Half& half : halves.half) {
+            half.guide = half.tones;
+            half.guideVariance = halves.variance;
+        }
+        return;
+    }
+    const std::size_t width = halves.variance.width(), height = halves.variance.height();
+    BorderedPlane variance(halves.variance), inside(width, height);
+    for (std::size_t y = 0; y < height; ++y) std::fill_n(inside.row(y), width, 1.0f);
+    for (Half& half : halves.half) makeGuide(half, variance, inside, kernels, threads);
+}
+
 // ---- filtering -----------------------------------------------------------------------------------------------------
 
 // One thread's tile: the planes that the kernel reads, with their margins, and what it writes.
 class TileFilter {
   public:
-    TileFilter(Halves& halves, const std::vector<SurfaceFeatures>& features, DenoiseKernel kernel)
+    TileFilter(Halves& halves, const std::vector<SurfaceFeatures>& features, const DenoiseKernels& kernels)
         : halves_(halves),
           features_(features),
-          kernel_(kernel),
+          kernels_(kernels),
           width_(static_cast<int>(halves.variance.width())),
           height_(static_cast<int>(halves.variance.height())) {}
 
@@ -61,11 +118,11 @@ class TileFilter {
         tile.columns = std::min(kDenoiseTile, width_ - left);
         tile.dependentSide = halves_.dependentSide;
         tile.scratch = scratch_.data();
-        tile.variance = load(kVariance, halves_.variance);
         loadFeatures(tile);
         for (std::size_t half = 0; half < 2; ++half) {
+            tile.variance = load(kVariance, halves_.half[1 - half].guideVariance);
             for (int c = 0; c < 3; ++c) {
-                tile.guide[c] = load(kGuide + c, halves_.half[1 - half].tones[c]);
+                tile.guide[c] = load(kGuide + c, halves_.half[1 - half].guide[c]);
                 tile.radiance[c] = load(kRadiance + c, halves_.half[half].radiance[c]);
             }
             for (std::size_t i = 0; i < kDenoiseBandwidths; ++i)
@@ -74,7 +131,7 @@ class TileFilter {
                 tile.ownFactor[i] = written(3 * kDenoiseBandwidths + i);
                 tile.partnerFactor[i] = written(4 * kDenoiseBandwidths + i);
             }
-            kernel_(tile);
+            kernels_.filterTile(tile);
             keep(tile, half);
         }
     }
@@ -151,7 +208,7 @@ class TileFilter {
 
     Halves& halves_;
     const std::vector<SurfaceFeatures>& features_;
-    DenoiseKernel kernel_;
+    DenoiseKernels kernels_;
     int width_, height_;
     int left_ = 0, top_ = 0;
     std::vector<float> planes_ = std::vector<float>(std::size_t{kPlanes} * kDenoisePlane + 8);
@@ -187,9 +244,10 @@ void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads
         }
     const std::size_t columns = (width + kDenoiseTile - 1) / kDenoiseTile,
                       rows = (height + kDenoiseTile - 1) / kDenoiseTile;
-    const DenoiseKernel kernel = bestKernel();
+    const DenoiseKernels kernels = bestKernels();
+    makeGuides(halves, kernels, threads);
     parallelFor(threads, rows, [&](std::size_t row) {
-        TileFilter filter(halves, features, kernel);
+        TileFilter filter(halves, features, kernels);
         for (std::size_t column = 0; column < columns; ++column) {
             interruptionPoint();
             filter.filter(static_cast<int>(column) * kDenoiseTile, static_cast<int>(row) * kDenoiseTile);

@@ -7,6 +7,7 @@
 #include "Common/Image/Denoise/Denoiser.h"
 #include "Common/Image/Denoise/Planes.h"
 #include "Common/Shared/Denoise/DenoiseFit.h"
+#include "Common/Shared/Denoise/DenoiseGuide.h"
 #include "Common/Shared/Denoise/DenoiseMix.h"
 #include "Common/Shared/Denoise/DenoiseWeights.h"
 
@@ -15,6 +16,8 @@ namespace rt::image {
 // A half as the filter reads it.
 struct Half {
     Planes radiance, tones;
+    Planes guide; // what pixels of the other half are compared by
+    Plane guideVariance;
 };
 
 struct Halves {
@@ -28,6 +31,7 @@ struct Halves {
 
     // With fewer samples too many pixels look free of noise.
     bool mayStayRaw() const { return samplesOfHalf >= shared::kDenoiseRawSamples; }
+    bool hasRawGuides() const { return samplesOfHalf >= shared::kDenoiseRawGuideSamples; }
     bool isMixed() const { return samplesOfHalf >= shared::kDenoiseMixSamples; }
 };
 
@@ -36,7 +40,7 @@ float usualDepth(const Image& depth);
 // The number of that one among `seen` depths in order.
 std::size_t usualRank(std::size_t seen);
 
-// Fills what is filtered, and the factors.
+// Fills what is filtered, and the factors; before that, guides.
 void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads);
 
 } // namespace rt::image

@@ -21,7 +21,7 @@ static_assert(kDenoisePitch % 8 == 0);
 // may be read beyond its end.
 struct DenoiseTile {
     int rows = 0, columns = 0;       // of pixels to filter, at most kDenoiseTile each
-    const float* guide[3] = {};      // tones of the other half; anything outside of the image
+    const float* guide[3] = {};      // of the other half (DenoiseGuide.h); anything outside of the image
     const float* variance = nullptr; // of these, summed over the channels
     const float* inside = nullptr;   // 1 inside of the image, 0 elsewhere
     // What radiance is taken for a linear function of, besides coordinates: features of the surface; 0 outside of the
@@ -46,12 +46,25 @@ inline constexpr std::size_t kDenoiseScratch =
     std::size_t{kDenoiseOffsets} * (kDenoiseRing * kDenoiseDistances + 2 * kDenoiseTile + 2 * 8);
 static_assert(kDenoiseDistances % 8 == 0);
 
-using DenoiseKernel = void (*)(const DenoiseTile&);
+// One row of a half whose guide is made. Pointers are to its first pixel; those that are read are into planes that have
+// kDenoiseGuideBorder pixels of zeros around the image, and kDenoiseGuideOverrun floats behind each row may be read.
+inline constexpr int kDenoiseGuideOverrun = 64;
+struct DenoiseGuideRow {
+    int width = 0;
+    int pitch = 0; // floats from one row of a plane that is read to the next
+    const float *tones[3] = {}, *variance = nullptr, *inside = nullptr; // as DenoiseTile's, before
+    float *guide[3] = {}, *guideVariance = nullptr;                     // and afterwards
+};
+
+struct DenoiseKernels {
+    void (*filterTile)(const DenoiseTile&);
+    void (*smoothGuideRow)(const DenoiseGuideRow&);
+};
 
 // Of each instruction set; only those of the architecture at hand exist.
-DenoiseKernel denoiseKernel_x86_64_v2();
-DenoiseKernel denoiseKernel_x86_64_v3();
-DenoiseKernel denoiseKernel_x86_64_v4();
-DenoiseKernel denoiseKernel_generic();
+DenoiseKernels denoiseKernels_x86_64_v2();
+DenoiseKernels denoiseKernels_x86_64_v3();
+DenoiseKernels denoiseKernels_x86_64_v4();
+DenoiseKernels denoiseKernels_generic();
 
 } // namespace rt::image

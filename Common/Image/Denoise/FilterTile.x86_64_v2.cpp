@@ -1,5 +1,7 @@
 #include "Common/Image/Denoise/FilterTile.h"
 
-rt::image::DenoiseKernel rt::image::denoiseKernel_x86_64_v2() {
-    return filterTile;
+#include "Common/Image/Denoise/GuideRow.h"
+
+rt::image::DenoiseKernels rt::image::denoiseKernels_x86_64_v2() {
+    return {filterTile, smoothGuideRow};
 }
