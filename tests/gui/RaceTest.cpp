@@ -64,5 +64,28 @@ TEST_P(RaceTest, TwoEstimatorsRaceAndAllIsSaved) {
     expectCleanEnd();
 }
 
+// The real one, on whatever device there is.
+TEST_P(RaceTest, TheOtherProgramRacesToo) {
+    const bool isCpu = std::string(GetParam()) == "ray-tracing-cpu";
+    const std::string own = isCpu ? "CPU" : "GPU", other = isCpu ? "GPU" : "CPU";
+    startWithPanel();
+    ASSERT_FALSE(HasFatalFailure());
+    ASSERT_TRUE(appears("Start race", kPanel)) << log();
+    ASSERT_TRUE(clickText(own, kPanel, [&] { return isShown(other, kPanel); })) << log();
+    const auto isOver = [this] { return isShown("race over", {0, 0, kSide, kHeight}); };
+    ASSERT_TRUE(clickText("Start race", kPanel, isOver)) << log();
+    ASSERT_TRUE(save("Save table", "race.csv")) << log();
+    std::ifstream table(saved("race.csv"));
+    std::string line;
+    int ofCpu = 0, ofGpu = 0; // points of both curves
+    while (std::getline(table, line)) {
+        ofCpu += line.find(",cpu,") != std::string::npos;
+        ofGpu += line.find(",gpu,") != std::string::npos;
+    }
+    EXPECT_GT(ofCpu, 0);
+    EXPECT_GT(ofGpu, 0);
+    expectCleanEnd();
+}
+
 } // namespace
 } // namespace rt::test
