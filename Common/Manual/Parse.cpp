@@ -28,9 +28,16 @@ const Page& askedPage(const CLI::App& app, const Page& page) {
     return asked == page.commands.end() ? page : *asked;
 }
 
+// CLI11 notes each option that it meets and, up to some version at least, keeps the notes of earlier command lines: who
+// parses a million would keep a million's. `app` is no constant, nobody reads the notes.
+void forgetParseOrder(CLI::App& app) {
+    const_cast<std::vector<CLI::Option*>&>(app.parse_order()).clear();
+}
+
 } // namespace
 
 bool parse(CLI::App& app, std::vector<std::string> arguments, std::ostream& out, const std::function<Page()>& page) {
+    forgetParseOrder(app);
     std::reverse(arguments.begin(), arguments.end()); // the order in which CLI11 takes them
     try {
         app.parse(std::move(arguments));

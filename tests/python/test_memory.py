@@ -1,5 +1,6 @@
 """Loops of calls keep no memory, and the module needs neither a window nor a device."""
 
+import ctypes
 import gc
 import os
 import subprocess
@@ -13,6 +14,28 @@ from support import numbers, unit
 
 # Of all calls of a loop together: less than the film of each render, of 24 x 24 pixels and 24 bytes each, would leave.
 KEPT_BYTES = 4 << 20
+
+
+# Of each call, on average: less than one pointer that is kept for it.
+KEPT_BYTES_PER_CALL = 8
+
+
+class _MallInfo(ctypes.Structure):
+    """struct mallinfo2 of glibc 2.33, mallinfo(3)."""
+
+    _fields_ = [(name, ctypes.c_size_t) for name in
+                ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks", "fordblks",
+                 "keepcost")]
+
+
+def bytes_in_use():
+    """Of all that was allocated and not freed, or None where the library of C does not tell."""
+    tell = getattr(ctypes.CDLL(None), "mallinfo2", None)
+    if tell is None:
+        return None
+    tell.restype = _MallInfo
+    info = tell()
+    return info.uordblks + info.hblkhd
 
 
 def resident_bytes():
@@ -36,6 +59,24 @@ class Leaks(unittest.TestCase):
         scene = rt.load("cornell-box-lights")
         self.assert_flat(lambda: rt.render(scene, "single", width=24, spp=1, max_depth=2, quiet=True).image,
                          500, 2000)
+
+    def test_nothing_at_all_is_kept_of_a_render(self):
+        # What grows by doubling is the same for a while: between two counts it must have doubled.
+        if not bytes_in_use():
+            self.skipTest("the library of C does not tell what is in use, or a sanitizer's allocates")
+        scene = rt.load("cornell-box-lights")
+
+        def render():
+            rt.render(scene, "single", width=4, height=4, spp=1, max_depth=1, quiet=True).image
+
+        for _ in range(1000):
+            render()
+        gc.collect()
+        before, calls = bytes_in_use(), 4000
+        for _ in range(calls):
+            render()
+        gc.collect()
+        self.assertLess(bytes_in_use() - before, KEPT_BYTES_PER_CALL * calls)
 
     def test_renders_of_scenes_that_are_compiled_each_time(self):
         def call():
