@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -87,6 +88,39 @@ std::string rowText(const float* row, std::size_t width) {
     return width == 1 ? text : "(" + text + ")";
 }
 
+// A whole number, be it Python's or numpy's, as a Python integer; nothing: it is none.
+py::object wholeNumber(const py::object& argument) {
+    if (py::isinstance<py::array>(argument) || PyIndex_Check(argument.ptr()) == 0) return {};
+    PyObject* const whole = PyNumber_Index(argument.ptr());
+    if (whole == nullptr) throw py::error_already_set();
+    return py::reinterpret_steal<py::object>(whole);
+}
+
+// -1: not from 0 to 2^63 - 1.
+std::int64_t positiveOf(const py::object& whole) {
+    int overflow = 0;
+    const long long value = PyLong_AsLongLongAndOverflow(whole.ptr(), &overflow);
+    return overflow != 0 || value < 0 ? -1 : value;
+}
+
+// Also a whole one, or a scalar of numpy; beyond the range of float it is infinite.
+bool isNumber(const py::object& argument) {
+    if (py::isinstance<py::array>(argument)) return false;
+    return py::isinstance<py::float_>(argument) || wholeNumber(argument) ||
+           py::isinstance(argument, py::module_::import("numpy").attr("floating"));
+}
+
+float toFloat(const py::object& number) {
+    constexpr float kInfinite = std::numeric_limits<float>::infinity();
+    const double value = PyFloat_AsDouble(number.ptr());
+    if (PyErr_Occurred() != nullptr) { // a whole number beyond the range of double
+        PyErr_Clear();
+        return number < py::int_(0) ? -kInfinite : kInfinite;
+    }
+    if (std::abs(value) > std::numeric_limits<float>::max()) return value < 0 ? -kInfinite : kInfinite;
+    return static_cast<float>(value);
+}
+
 // Of this type and contiguous. `expected`: "a float32 array of shape (N, 3)".
 template <class T>
 py::array_t<T> plainArray(const py::object& argument, const char* name, const std::string& expected) {
@@ -108,8 +142,8 @@ Rows::Rows(const py::object& argument, const char* name, std::size_t width, Dema
     const std::string w = std::to_string(width);
     const std::string expected = width == 0 ? "a number or a float32 array of shape (N,)"
                                             : "a float32 array of shape (N, " + w + ") or (" + w + ",)";
-    if (width == 0 && (py::isinstance<py::float_>(argument) || py::isinstance<py::int_>(argument))) {
-        single_ = argument.cast<float>();
+    if (width == 0 && isNumber(argument)) {
+        single_ = toFloat(argument);
         data_ = &single_;
         isOne_ = true;
     } else {
@@ -156,11 +190,9 @@ std::size_t commonCount(std::initializer_list<const Rows*> arguments) {
 
 Words::Words(const py::object& argument, const char* name) : name_(name) {
     const std::string expected = "a whole number from 0 to 2^32 - 1 or a uint32 array of shape (N,)";
-    if (py::isinstance<py::int_>(argument)) {
-        int overflow = 0;
-        const long long value = PyLong_AsLongLongAndOverflow(argument.ptr(), &overflow);
-        if (overflow != 0 || value < 0 || value > 0xffffffffLL)
-            throw py::value_error(unexpected(name, expected, py::str(argument)));
+    if (const py::object whole = wholeNumber(argument)) {
+        const std::int64_t value = positiveOf(whole);
+        if (value < 0 || value > 0xffffffffLL) throw py::value_error(unexpected(name, expected, py::str(argument)));
         single_ = static_cast<std::uint32_t>(value);
         isOne_ = true;
         return;
@@ -174,6 +206,17 @@ Words::Words(const py::object& argument, const char* name) : name_(name) {
 
 std::size_t commonCount(std::initializer_list<const Words*> arguments) {
     return commonCountOf(arguments);
+}
+
+std::size_t indexArgument(const py::object& argument, const char* name, std::size_t count, const char* of) {
+    const std::string expected =
+        "an index from 0 to " + std::to_string(static_cast<std::int64_t>(count) - 1) + " of " + of;
+    const py::object whole = wholeNumber(argument);
+    if (!whole) throw py::type_error(unexpected(name, expected, typeText(argument)));
+    const std::int64_t value = positiveOf(whole);
+    if (value < 0 || static_cast<std::uint64_t>(value) >= count)
+        throw py::value_error(unexpected(name, expected, py::str(argument)));
+    return static_cast<std::size_t>(value);
 }
 
 py::array toArray(image::Image image) {

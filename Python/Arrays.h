@@ -68,6 +68,9 @@ class Words {
 };
 std::size_t commonCount(std::initializer_list<const Words*> arguments);
 
+// A whole number below `count`; `of`: "the scene's lights". Throws TypeError or ValueError.
+std::size_t indexArgument(const pybind11::object& argument, const char* name, std::size_t count, const char* of);
+
 // A new array of shape (N, width), or (N,) for a width of 0, and where its numbers go.
 template <class T>
 struct NewArray {

@@ -17,12 +17,9 @@ namespace {
 namespace py = pybind11;
 using namespace rt::shared;
 
-uint materialAt(const Scene& scene, std::int64_t index) {
-    const auto count = static_cast<std::int64_t>(scene.compiled()->materials.size());
-    if (index < 0 || index >= count)
-        throw py::value_error("material: expected an index from 0 to " + std::to_string(count - 1) +
-                              " of the scene's materials; got " + std::to_string(index));
-    return static_cast<uint>(index);
+uint materialAt(const Scene& scene, const py::object& index) {
+    return static_cast<uint>(
+        indexArgument(index, "material", scene.compiled()->materials.size(), "the scene's materials"));
 }
 
 // A vertex at the origin of coordinates on a flat surface of this material.
@@ -43,7 +40,7 @@ struct BsdfArguments {
     uint material;
     Rows normal, wo, uv;
 
-    BsdfArguments(const Scene& scene, std::int64_t index, const py::object& n, const py::object& o,
+    BsdfArguments(const Scene& scene, const py::object& index, const py::object& n, const py::object& o,
                   const py::object& at)
         : material(materialAt(scene, index)),
           normal(n, "normals", 3, Demand::Unit),
@@ -54,8 +51,8 @@ struct BsdfArguments {
     }
 };
 
-py::tuple sampleBsdfs(const Scene& scene, std::int64_t index, const py::object& normals, const py::object& outgoing,
-                      const py::object& numbers, const py::object& at) {
+py::tuple sampleBsdfs(const Scene& scene, const py::object& index, const py::object& normals,
+                      const py::object& outgoing, const py::object& numbers, const py::object& at) {
     const BsdfArguments arguments(scene, index, normals, outgoing, at);
     const Rows u(numbers, "u", 2, Demand::Fraction);
     const std::size_t count = commonCount({&arguments.normal, &arguments.wo, &arguments.uv, &u});
@@ -75,7 +72,7 @@ py::tuple sampleBsdfs(const Scene& scene, std::int64_t index, const py::object& 
     return py::make_tuple(wi.array, weight.array, pdf.array, delta.array, transmitted.array);
 }
 
-py::tuple evalBsdfs(const Scene& scene, std::int64_t index, const py::object& normals, const py::object& outgoing,
+py::tuple evalBsdfs(const Scene& scene, const py::object& index, const py::object& normals, const py::object& outgoing,
                     const py::object& incoming, const py::object& at) {
     const BsdfArguments arguments(scene, index, normals, outgoing, at);
     const Rows wi(incoming, "wi", 3, Demand::Unit);

@@ -17,12 +17,12 @@ namespace {
 namespace py = pybind11;
 using namespace rt::shared;
 
-const Light& lightAt(const Scene& scene, std::int64_t index) {
-    const std::uint32_t count = scene.compiled()->globals.lightCount;
-    if (index < 0 || index >= count)
-        throw py::value_error("light: expected an index from 0 to " + std::to_string(std::int64_t{count} - 1) +
-                              " of the scene's lights; got " + std::to_string(index));
-    return scene.compiled()->lights[static_cast<std::size_t>(index)];
+std::size_t lightIndex(const Scene& scene, const py::object& index) {
+    return indexArgument(index, "light", scene.compiled()->globals.lightCount, "the scene's lights");
+}
+
+const Light& lightAt(const Scene& scene, const py::object& index) {
+    return scene.compiled()->lights[lightIndex(scene, index)];
 }
 
 void requireLights(const Scene& scene) {
@@ -38,7 +38,7 @@ Vertex vertexAt(const shared::vec3& position, const shared::vec3& normal) {
     return v;
 }
 
-py::tuple sampleLights(const Scene& scene, std::int64_t index, const py::object& points, const py::object& normals,
+py::tuple sampleLights(const Scene& scene, const py::object& index, const py::object& points, const py::object& normals,
                        const py::object& numbers, const py::object& when) {
     const Light& light = lightAt(scene, index);
     const Rows position(points, "points", 3);
@@ -65,7 +65,7 @@ py::tuple sampleLights(const Scene& scene, std::int64_t index, const py::object&
     return py::make_tuple(direction.array, distance.array, pdf.array, radiance.array, point.array, towards.array);
 }
 
-py::array lightPdfs(const Scene& scene, std::int64_t index, const py::object& points, const py::object& normals,
+py::array lightPdfs(const Scene& scene, const py::object& index, const py::object& points, const py::object& normals,
                     const py::object& directions, const py::object& when) {
     const Light& light = lightAt(scene, index);
     const Rows position(points, "points", 3);
@@ -104,9 +104,9 @@ py::tuple chooseLights(const Scene& scene, const py::object& points, const py::o
     return py::make_tuple(light.array, probability.array);
 }
 
-py::array lightProbabilities(const Scene& scene, std::int64_t index, const py::object& points,
+py::array lightProbabilities(const Scene& scene, const py::object& index, const py::object& points,
                              const py::object& normals) {
-    lightAt(scene, index);
+    const std::size_t light = lightIndex(scene, index);
     const Rows position(points, "points", 3);
     const Rows normal(normals, "normals", 3, Demand::UnitOr0);
     const std::size_t count = commonCount({&position, &normal});
@@ -116,7 +116,7 @@ py::array lightProbabilities(const Scene& scene, std::int64_t index, const py::o
         for (std::size_t i = 0; i < count; ++i) {
             LightContext context = probe::contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
             probe::chooseLightAt(scene, shared::vec2(0.5f, 0.5f), context); // which leaves the sum of contributions
-            probability.set(i, probe::probabilityOf(scene, static_cast<uint>(index), context));
+            probability.set(i, probe::probabilityOf(scene, static_cast<uint>(light), context));
         }
     }
     return probability.array;

@@ -148,7 +148,7 @@ py::tuple cameraRays(const Scene& scene, const py::object& x, const py::object& 
     if (!areOne[0] && !areOne[1] && places != samples)
         throw py::value_error("u_pixel: expected " + std::to_string(places) +
                               " rows, as many as x and y have, or one; got " + std::to_string(samples));
-    const std::size_t count = std::max(places, samples);
+    const std::size_t count = areOne[0] ? samples : places;
     NewFloats origins(count, 3);
     NewFloats directions(count, 3);
     for (std::size_t i = 0; i < count; ++i) {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import operator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,6 +38,20 @@ def cell_directions(height: int) -> np.ndarray:
                      -radius * np.sin(angle)], -1).astype(np.float32)
 
 
+def _whole(name: str, value: Any, first: int, last: int) -> int:
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name}: expected a whole number; got {type(value).__name__}") from None
+    if not first <= number <= last:
+        raise ValueError(f"{name}: expected a whole number from {first} to {last}; got {number}")
+    return number
+
+
+def _pixel(scene: Compiled, x: Any, y: Any) -> tuple[int, int]:
+    return _whole("x", x, 0, scene.width - 1), _whole("y", y, 0, scene.height - 1)
+
+
 def probe(scene: Compiled, x: int, y: int, strategy: str | int = "lights", height: int = 128, side: int = 4,
           show: str = "pdf", paths: int = 16, seed: int = 0) -> Probe:
     """The map of what a strategy does at the surface in the middle of pixel x, y of scene.compile().
@@ -48,12 +63,10 @@ def probe(scene: Compiled, x: int, y: int, strategy: str | int = "lights", heigh
     are traced of as many paths, whose numbers follow from the seed. Raises ValueError where the pixel shows no surface,
     or one without a density, as mirrors.
     """
-    if not (1 <= height <= 4096 and 1 <= side <= 64):
-        raise ValueError(f"height, side: expected 1 to 4096 rows and 1 to 64 places; got {height}, {side}")
-    if not (1 <= paths <= 65536 and 0 <= seed < 2**32):
-        raise ValueError(f"paths, seed: expected 1 to 65536 paths and a seed of 32 bits; got {paths}, {seed}")
-    scene.camera_rays(x, y)  # which raises where there is no such pixel
-    values, place = _core.probe_map(scene._core, x, y, str(strategy), height, side, show, paths, seed)
+    x, y = _pixel(scene, x, y)
+    height, side = _whole("height", height, 1, 4096), _whole("side", side, 1, 64)
+    paths, seed = _whole("paths", paths, 1, 65536), _whole("seed", seed, 0, 2**32 - 1)
+    values, place = _core.probe_map(scene._core, x, y, str(strategy), height, side, str(show), paths, seed)
     return Probe(values.reshape(height, 2 * height), cell_directions(height), *place)
 
 
@@ -63,7 +76,8 @@ def pixel_paths(scene: Compiled, x: int, y: int, samples: int = 256, sample: int
     ("techniques") and by bounces, and the brightest paths with densities, weights and lines; with `sample` all paths of
     that one, as "selected".
     """
-    if not (1 <= samples <= 1 << 20 and (sample is None or 0 <= sample < samples)):
-        raise ValueError(f"samples, sample: expected 1 to {1 << 20} samples and one of them; got {samples}, {sample}")
-    scene.camera_rays(x, y)  # which raises where there is no such pixel
+    x, y = _pixel(scene, x, y)
+    samples = _whole("samples", samples, 1, 1 << 20)
+    if sample is not None:
+        sample = _whole("sample", sample, 0, samples - 1)
     return json.loads(_core.pixel_paths(scene._core, x, y, samples, sample))

@@ -104,16 +104,16 @@ class Probes(unittest.TestCase):
             rt.probe(self.scene, 20, 20, 7)
         with self.assertRaisesRegex(ValueError, "^light: expected an index"):
             rt.probe(self.scene, 20, 20, -1)
-        with self.assertRaisesRegex(ValueError, "^x: expected pixels"):
+        with self.assertRaisesRegex(ValueError, "^x: expected a whole number from 0 to 39; got 40"):
             rt.probe(self.scene, 40, 20)
         with self.assertRaisesRegex(ValueError, "^strategy: .* mirror or clear glass"):
             rt.probe(rt.load({**ROOM, "materials": {**ROOM["materials"], "floor": {
                 "type": "metal", "albedo": [1, 1, 1], "fuzz": 0}}}).compile(width=40), 20, 20, "bsdf")
-        with self.assertRaisesRegex(ValueError, "^height, side: expected"):
+        with self.assertRaisesRegex(ValueError, "^height: expected"):
             rt.probe(self.scene, 20, 20, height=0)
         with self.assertRaisesRegex(ValueError, "^show: expected one of pdf, radiance"):
             rt.probe(self.scene, 20, 20, show="light")
-        with self.assertRaisesRegex(ValueError, "^paths, seed: expected"):
+        with self.assertRaisesRegex(ValueError, "^paths: expected"):
             rt.probe(self.scene, 20, 20, paths=0)
 
 
@@ -129,7 +129,7 @@ class PixelPaths(unittest.TestCase):
         self.assertTrue(all(path["sample"] == 5 for path in found["selected"]))
 
     def test_what_is_no_sample(self):
-        with self.assertRaisesRegex(ValueError, "^samples, sample: expected"):
+        with self.assertRaisesRegex(ValueError, "^sample: expected"):
             rt.pixel_paths(rt.load(ROOM).compile(width=40), 20, 20, samples=8, sample=8)
 
 
