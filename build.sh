@@ -61,8 +61,8 @@ usage() {
 ./build.sh fuzz [--fixed] [SECONDS [TARGET...]]
                          build fuzz targets with Clang, unless some are named all, and run them, 60 s together; finds are
                          kept in build/fuzz/finds; --fixed: the same inputs every time
-./build.sh sanitize      build the CPU program and its tests with sanitizers and run the tests of every change: address and
-                         undefined behaviour in build-asan/, then threads in build-tsan/
+./build.sh sanitize      build the CPU program, the Python module and their tests with sanitizers and run the tests of every
+                         change: address and undefined behaviour in build-asan/, then threads, without Python, in build-tsan/
 ./build.sh releases [RELEASE...]
                          as root: ./build.sh run and ./build.sh test on bare systems of each release that is promised
                          (or of some: bookworm, trixie, noble), made in build/releases; hours, for nights
@@ -264,12 +264,13 @@ build_fuzz() {
 
 # sanitize PRESET [-DNAME=VALUE...]: what runs without a device, as no driver is compiled with sanitizers.
 sanitize() {
-    local programs=(rt-unit-tests rt-image-tests rt-program-tests)
+    local targets=(rt-unit-tests rt-image-tests rt-program-tests)
+    [[ $1 != asan ]] || targets+=(rt-python)
     preset=$1
     configure -DRT_BUILD_GPU=OFF -DRT_BUILD_GUI=OFF -DRT_WITH_MPI=OFF "${@:2}"
-    build --target "${programs[@]}"
+    build --target "${targets[@]}"
     ctest --test-dir "build-$1" --output-on-failure --no-label-summary --parallel "$(nproc)" \
-        --label-regex 'unit|image|program' --label-exclude nightly
+        --label-regex 'unit|image|program|python' --label-exclude nightly
 }
 
 rm -f $log 2>/dev/null || true # of whom may not, the first step tells
@@ -349,7 +350,7 @@ case $verb in
         tests/fuzz/campaign.sh ${fixed[@]+"${fixed[@]}"} build/fuzz "${1:-60}" "$(nproc)" "${@:2}"
         ;;
     sanitize)
-        install_packages "${build_packages[@]}" "${test_packages[@]}"
+        install_packages "${build_packages[@]}" "${test_packages[@]}" "${python_packages[@]}"
         sanitize asan
         # Embree's threads are not compiled with the sanitizer: it takes what they hand on for races.
         sanitize tsan -DCMAKE_DISABLE_FIND_PACKAGE_embree=ON
