@@ -14,13 +14,21 @@ constexpr float kPointRadius = 6, kReach = 11; // of the mark, and of the pointe
 
 void setPoint(Gui& gui, PointPicker& picker, const std::array<std::uint32_t, 2>& pixel) {
     const image::Image& picture = *gui.state.picture.image;
-    picker.point = PickedPixel{gui.camera.camera(), pixel, {picture.width, picture.height}, gui.state.source};
+    picker.point = PickedPixel{
+        gui.camera.camera(), pixel, {picture.width, picture.height}, gui.state.source, gui.state.sceneReads};
+}
+
+// A scene that is saved under a name is the one that it was; so is one that is read anew from where it was.
+bool isOfAnotherScene(const Gui& gui, PickedPixel& point) {
+    const bool isRead = std::exchange(point.reads, gui.state.sceneReads) != gui.state.sceneReads;
+    const bool isElsewhere = std::exchange(point.source, gui.state.source) != gui.state.source;
+    return isRead && isElsewhere;
 }
 
 } // namespace
 
 bool followPicker(const Gui& gui, PointPicker& picker) {
-    if (picker.point && picker.point->source != gui.state.source) picker.point.reset();
+    if (picker.point && isOfAnotherScene(gui, *picker.point)) picker.point.reset();
     if (std::exchange(picker.isShown, false)) return true;
     picker.isPicking = picker.isDragged = false;
     return false;

@@ -20,7 +20,8 @@ struct Gui;
 struct PickedPixel {
     scene::CameraDesc camera;
     std::array<std::uint32_t, 2> pixel{}, size{};
-    std::string source; // of the scene
+    std::string source;      // of the scene
+    std::uint64_t reads = 0; // of the scene: SessionState::sceneReads
 };
 
 struct PointPicker {

@@ -216,6 +216,13 @@ std::string textOf(const PathsResult& result, const PathsPlace& place) {
     return text;
 }
 
+std::size_t brightestOf(std::span<const float> samples, std::size_t first, std::size_t end) {
+    std::size_t best = first;
+    for (std::size_t i = first + 1; i < end; ++i)
+        if (samples[i] > samples[best] || std::isnan(samples[best])) best = i;
+    return best;
+}
+
 image::Image stripOf(const PathsResult& result) {
     constexpr std::uint32_t kHeight = 96, kLeastWidth = 512, kMostWidth = 8192;
     const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(result.samples.size(), 1));
@@ -225,13 +232,16 @@ image::Image stripOf(const PathsResult& result) {
     float most = 0;
     for (const float sample : result.samples)
         if (std::isfinite(sample)) most = std::max(most, sample);
+    if (!(most > 0)) return strip;
+    const auto firstOf = [&](std::uint32_t column) { return std::size_t{column} * count / strip.width; };
     for (std::uint32_t x = 0; x < strip.width; ++x) {
-        const std::size_t i = std::size_t{x} * count / strip.width;
-        if (i >= result.samples.size() || !(result.samples[i] > 0)) continue;
-        const auto height = static_cast<std::uint32_t>(std::lround(kHeight * std::sqrt(result.samples[i] / most)));
+        const std::size_t i = brightestOf(result.samples, firstOf(x), firstOf(x + 1));
+        if (!(result.samples[i] > 0)) continue;
+        const float share = std::sqrt(std::min(result.samples[i] / most, 1.0f));
+        const auto height = static_cast<std::uint32_t>(std::lround(kHeight * share));
         const TechniqueColor color = colorOf(result.dominant[i]);
         const std::uint8_t encoded[3] = {color.r, color.g, color.b};
-        for (std::uint32_t y = kHeight - std::min(height, kHeight); y < kHeight; ++y)
+        for (std::uint32_t y = kHeight - height; y < kHeight; ++y)
             for (int c = 0; c < 3; ++c)
                 strip.pixel(x, y)[c] = shared::srgbToLinear(static_cast<float>(encoded[c]) / 255.0f);
     }

@@ -1,7 +1,9 @@
 // What is written of a pixel's samples: sentences, figures as JSON, a strip as a picture.
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,8 +31,11 @@ std::string textOf(const FoundLight& found); // "BSDF sampling after 2 bounces"
 nlohmann::ordered_json figuresOf(const PathsResult& result, const PathsPlace& place);
 std::string textOf(const PathsResult& result, const PathsPlace& place); // with line breaks
 
+// The brightest of samples [first, end), of which there is one; those that are not a number are the least.
+std::size_t brightestOf(std::span<const float> samples, std::size_t first, std::size_t end);
+
 // A bar for each sample, in order: as high as the root of its brightness by the brightest one's, and in the colour of
-// what brought most of it. Linear values.
+// what brought most of it; where there are more samples than pixels, for the brightest of several. Linear values.
 image::Image stripOf(const PathsResult& result);
 
 } // namespace rt::probe

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -333,6 +334,26 @@ TEST(PathsReports, SayTheSameAsFiguresAndAsText) {
         static_cast<std::uint32_t>(std::ranges::max_element(result.samples) - result.samples.begin());
     const std::uint32_t bar = strip.width / 300;
     EXPECT_GT(strip.pixel(brightest * bar, 0)[2], 0.5f) << "as high as the strip, and blue";
+}
+
+TEST(PathsReports, NoBrightSampleIsMissingFromTheStrip) {
+    PathsResult result;
+    result.samples.assign(100'000, 0.01f);
+    result.samples[77'776] = std::numeric_limits<float>::quiet_NaN();
+    result.samples[77'777] = 1;
+    result.dominant.assign(result.samples.size(), Technique::Scattering);
+    const image::Image strip = stripOf(result);
+    std::uint32_t highest = 0;
+    for (std::uint32_t x = 0; x < strip.width; ++x)
+        if (strip.pixel(x, 0)[2] > 0.5f) ++highest;
+    EXPECT_EQ(highest, 1u) << "of " << strip.width << " columns";
+}
+
+TEST(PathsReports, AStripOfDarkSamplesIsDark) {
+    PathsResult result;
+    result.samples.assign(20'000, 0.0f);
+    result.dominant.assign(result.samples.size(), Technique::Scattering);
+    for (const float value : stripOf(result).data) ASSERT_LT(value, 0.1f);
 }
 
 } // namespace

@@ -35,12 +35,8 @@ struct Strip {
         return std::min(result.samples.size(), static_cast<std::size_t>(std::max(size.x, 1.0f)));
     }
     std::size_t firstOf(std::size_t column) const { return column * result.samples.size() / columns(); }
-    // The brightest sample of a column.
     std::size_t sampleOf(std::size_t column) const {
-        std::size_t best = firstOf(column);
-        for (std::size_t i = best; i < firstOf(column + 1); ++i)
-            if (result.samples[i] > result.samples[best]) best = i;
-        return best;
+        return probe::brightestOf(result.samples, firstOf(column), firstOf(column + 1));
     }
     float leftOf(std::size_t column) const {
         return corner.x + size.x * static_cast<float>(column) / static_cast<float>(columns());
