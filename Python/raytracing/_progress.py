@@ -16,7 +16,8 @@ _CELLS = 24
 def _notebook() -> Any:
     """The display module of IPython in a notebook, else None."""
     shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
-    if shell is None or type(shell).__name__ != "ZMQInteractiveShell":
+    # That of ipykernel, from which notebooks of several makers derive their own.
+    if not any(base.__name__ == "ZMQInteractiveShell" for base in type(shell).__mro__):
         return None
     from IPython import display
 

@@ -217,6 +217,26 @@ class Watched(unittest.TestCase):
         self.assertEqual(film.stopped_by, "time_limit")
 
 
+# What a script sees in a notebook, whose shell is derived from that of IPython's kernels; `shown` is what was displayed.
+NOTEBOOK = """
+            import sys, types
+            shown, displays = [], 0
+            class Handle:
+                def update(self, html): shown.append(html)
+            class ZMQInteractiveShell: pass
+            class Shell(ZMQInteractiveShell): pass
+            def display(html, display_id):
+                global displays
+                displays += 1
+                shown.append(html)
+                return Handle()
+            ipython = types.ModuleType("IPython")
+            ipython.get_ipython = lambda: Shell()
+            ipython.display = types.SimpleNamespace(HTML=str, display=display)
+            sys.modules["IPython"] = ipython
+"""
+
+
 def run_script(text, **kwargs):
     return subprocess.Popen([sys.executable, "-c", textwrap.dedent(text)], stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE, text=True, **kwargs)
@@ -272,17 +292,7 @@ class Bars(unittest.TestCase):
         self.assertRegex(err, r"^\n\[#+\] 4/4 spp  100%.*, done *\n$")
 
     def test_notebook(self):
-        script = run_script("""
-            import sys, types
-            shown = []
-            class Handle:
-                def update(self, html): shown.append(html)
-            class ZMQInteractiveShell: pass
-            def display(html, display_id): shown.append(html); return Handle()
-            ipython = types.ModuleType("IPython")
-            ipython.get_ipython = lambda: ZMQInteractiveShell()
-            ipython.display = types.SimpleNamespace(HTML=str, display=display)
-            sys.modules["IPython"] = ipython
+        script = run_script(NOTEBOOK + """
             import raytracing
             raytracing.render("cornell-box-lights", "cpu", spp=4, width=40)
             print(shown[-1])
@@ -290,6 +300,27 @@ class Bars(unittest.TestCase):
         out, err = script.communicate(timeout=120)
         self.assertEqual(err, "")
         self.assertRegex(out, r'^<progress value="100.0" max="100"></progress> <code>4/4 spp')
+
+    def test_notebook_step_by_step(self):
+        # One bar, which is updated in its place; it ends where the loop does.
+        script = run_script(NOTEBOOK + """
+            import raytracing
+            steps = 0
+            for film in raytracing.progressive("cornell-box-lights", "single", spp=10**6, width=300, every=0.25):
+                steps += 1
+                if steps == 3: film.cancel()
+            print(len(shown) >= 3, displays, shown[0] != shown[-1], shown[-1].endswith("interrupted</code>"))
+        """)
+        out, err = script.communicate(timeout=120)
+        self.assertEqual((out, err), ("True 1 True True\n", ""))
+
+    def test_no_bar_in_a_shell_of_ipython_without_a_terminal(self):
+        script = run_script(NOTEBOOK.replace("ZMQ", "Terminal") + """
+            import raytracing
+            raytracing.render("cornell-box-lights", "cpu", spp=4, width=40)
+            print(shown)
+        """)
+        self.assertEqual(script.communicate(timeout=120), ("[]\n", ""))
 
 
 if __name__ == "__main__":
