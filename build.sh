@@ -61,8 +61,9 @@ usage() {
 ./build.sh fuzz [--fixed] [SECONDS [TARGET...]]
                          build fuzz targets with Clang, unless some are named all, and run them, 60 s together; finds are
                          kept in build/fuzz/finds; --fixed: the same inputs every time
-./build.sh sanitize      build the CPU program, the Python module and their tests with sanitizers and run the tests of every
-                         change: address and undefined behaviour in build-asan/, then threads, without Python, in build-tsan/
+./build.sh sanitize      build the CPU program, the Python module and their tests with sanitizers and run the tests of
+                         every change: address and undefined behaviour in build-asan/, then threads, without the
+                         module, in build-tsan/
 ./build.sh releases [RELEASE...]
                          as root: ./build.sh run and ./build.sh test on bare systems of each release that is promised
                          (or of some: bookworm, trixie, noble), made in build/releases; hours, for nights

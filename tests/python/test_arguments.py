@@ -108,7 +108,8 @@ class Arguments(unittest.TestCase):
             if function in IMAGES:
                 continue
             with self.subTest(function=function):
-                empty = {name: value[:0] if isinstance(value, np.ndarray) else value for name, value in arguments.items()}
+                empty = {name: value[:0] if isinstance(value, np.ndarray) else value
+                         for name, value in arguments.items()}
                 results = call(**empty)
                 for result in results if isinstance(results, tuple) else (results,):
                     self.assertEqual(len(result), 0)

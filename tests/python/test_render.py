@@ -217,7 +217,7 @@ class Watched(unittest.TestCase):
         self.assertEqual(film.stopped_by, "time_limit")
 
 
-# What a script sees in a notebook, whose shell is derived from that of IPython's kernels; `shown` is what was displayed.
+# What a script sees in a notebook, whose shell is derived from that of IPython's kernels; `shown`: what was displayed.
 NOTEBOOK = """
             import sys, types
             shown, displays = [], 0
