@@ -78,6 +78,33 @@ TEST(PbrtFiles, WhatIsLeftOutIsTold) {
 }
 
 // As public scenes have them: none of it is a reason to stop.
+TEST(PbrtFiles, OptionsAndPerspectiveAreLeftOut) {
+    const test::PbrtFolder folder;
+    const SceneDesc scene = folder.load(
+        "Option \"seed\" 42\nOption \"wavefront\" [true]\nOption \"msereferenceout\" \"a.exr\"\n"
+        "Option \"bool disablepixeljitter\" true\nWorldBegin\nAttributeBegin\n"
+        "ConcatTransform [0 0 1 0 1 0 0 0 0 1 0 9 0 0 0 1]\nLightSource \"infinite\" \"float scale\" .5\n"
+        "AttributeEnd\nMaterial \"hair\" \" float beta_n\" 0.5\nShape \"sphere\"\n");
+    EXPECT_EQ(std::get<ConstantBackground>(scene.background).color, glm::dvec3(0.5));
+    EXPECT_TRUE(test::hasNotice(scene, "a.pbrt:7: perspective in transforms is left out"));
+    EXPECT_EQ(scene.objects.size(), 1u);
+}
+
+TEST(PbrtFiles, ParametersGoOnBehindAnIncludedFile) {
+    const test::PbrtFolder folder;
+    folder.write("inner.pbrt", "Shape \"disk\" \"float radius\" 3 # the last\n");
+    folder.write("outer.pbrt", "Include \"inner.pbrt\"");
+    const SceneDesc scene = folder.load(
+        "WorldBegin\nInclude \"outer.pbrt\"\n  \"float innerradius\" 2 \"float height\" [ 1 ]\n"
+        "Shape \"sphere\"\nInclude \"inner.pbrt\"\nShape \"sphere\" \"float radius\" 4");
+    ASSERT_EQ(scene.objects.size(), 4u);
+    EXPECT_EQ(shapeOf<DiskDesc>(scene, 0).innerRadius, 2);
+    EXPECT_EQ(shapeOf<DiskDesc>(scene, 0).center.z, 1);
+    EXPECT_EQ(shapeOf<DiskDesc>(scene, 2).innerRadius, 0);
+    EXPECT_EQ(shapeOf<SphereDesc>(scene, 3).radius, 4);
+    EXPECT_THROW(folder.load("WorldBegin\nImport \"inner.pbrt\"\n\"float innerradius\" 2"), InputError);
+}
+
 TEST(PbrtFiles, OddTexturesAreNoMistakes) {
     const test::PbrtFolder folder;
     const SceneDesc scene = folder.load(

@@ -79,9 +79,11 @@ class PbrtLoader {
             case K::Rotate:
             case K::LookAt:
             case K::ConcatTransform:
-                return state_.concat(pbrtMap(d));
-            case K::Transform:
-                return state_.set({pbrtMap(d), pbrtMap(d)});
+                return state_.concat(map(d));
+            case K::Transform: {
+                const Affine both = map(d);
+                return state_.set({both, both});
+            }
             case K::Identity:
                 return state_.set({});
             case K::CoordinateSystem:
@@ -193,6 +195,11 @@ class PbrtLoader {
     }
 
     // ---- state ------------------------------------------------------------------------------------------------------
+
+    Affine map(const PbrtDirective& d) {
+        if (hasPerspective(d)) notices_.add("perspective in transforms is left out", d.place);
+        return pbrtMap(d);
+    }
 
     void restore(const PbrtDirective& d) {
         const bool endsImport = !d.place.file;

@@ -31,9 +31,12 @@ Affine pbrtMap(const PbrtDirective& d) {
         default: // 16 numbers, column after column
             break;
     }
-    if (n[3] != 0 || n[7] != 0 || n[11] != 0 || n[15] != 1)
-        d.place.fail(std::string(d.name) + ": its last row must be 0 0 0 1, as only affine maps are known");
+    if (n[15] != 1) d.place.fail(std::string(d.name) + ": its last number must be 1");
     return {glm::dmat3(n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10]), {n[12], n[13], n[14]}};
+}
+
+bool hasPerspective(const PbrtDirective& d) {
+    return d.numbers.size() == 16 && (d.numbers[3] != 0 || d.numbers[7] != 0 || d.numbers[11] != 0);
 }
 
 } // namespace rt::scene

@@ -5,7 +5,8 @@
 
 namespace rt::scene {
 
-// Of Translate, Scale, Rotate, LookAt, Transform and ConcatTransform. Throws InputError.
+// Of Translate, Scale, Rotate, LookAt, Transform and ConcatTransform, without its perspective. Throws InputError.
 Affine pbrtMap(const PbrtDirective& directive);
+bool hasPerspective(const PbrtDirective& directive);
 
 } // namespace rt::scene

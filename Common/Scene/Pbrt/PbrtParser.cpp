@@ -51,7 +51,7 @@ constexpr PbrtForm kForms[] = {
     {"ObjectBegin", K::ObjectBegin, 1, 1, 0, false},
     {"ObjectEnd", K::ObjectEnd, 0, 0, 0, false},
     {"ObjectInstance", K::ObjectInstance, 1, 1, 0, false},
-    {"Option", K::Option, 0, 0, 0, true},
+    {"Option", K::Option, 1, 1, 0, false}, // and a value
     {"PixelFilter", K::PixelFilter, 1, 1, 0, true},
     {"ReverseOrientation", K::ReverseOrientation, 0, 0, 0, false},
     {"Rotate", K::Rotate, 0, 0, 4, false},
@@ -118,6 +118,7 @@ bool PbrtParser::next() {
         return true;
     }
     readTexts(form.minTexts, form.maxTexts);
+    if (form.keyword == PbrtKeyword::Option) skipValue();
     readNumbers(form.numbers);
     directive_.parameters.what = form.name;
     if (!directive_.texts.empty()) directive_.parameters.what += " \"" + printable(directive_.texts.back(), 100) + '"';
@@ -157,8 +158,23 @@ void PbrtParser::readNumbers(std::size_t count) {
     lexer().next();
 }
 
+void PbrtParser::skipValue() {
+    const bool isList = lexer().kind() == PbrtLexer::Kind::Open;
+    if (isList) lexer().next();
+    if (lexer().kind() != PbrtLexer::Kind::Word && lexer().kind() != PbrtLexer::Kind::Quoted)
+        lexer().place().fail("Option: " + lexer().described() + ": must be a value");
+    lexer().next();
+    if (!isList) return;
+    if (lexer().kind() != PbrtLexer::Kind::Close)
+        lexer().place().fail(lexer().described() + ": must be ], as an option has one value");
+    lexer().next();
+}
+
+// Behind an included file those of its last directive go on in the file that includes it.
 void PbrtParser::readParameters() {
-    while (lexer().kind() == PbrtLexer::Kind::Quoted) {
+    for (;;) {
+        while (lexer().kind() == PbrtLexer::Kind::End && files_.size() > 1 && !files_.back().isImported) close();
+        if (lexer().kind() != PbrtLexer::Kind::Quoted) return;
         PbrtParameter parameter;
         parameter.place = lexer().place();
         std::string_view rest = lexer().text();

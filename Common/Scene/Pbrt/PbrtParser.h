@@ -107,6 +107,7 @@ class PbrtParser {
     void readTexts(std::size_t least, std::size_t most);
     void readNumbers(std::size_t count);
     void readParameters();
+    void skipValue();
     void readValues(PbrtParameter& parameter);
     void addValue(PbrtParameter& parameter);
     PbrtLexer& lexer() { return *files_.back().lexer; }
