@@ -17,6 +17,7 @@ class Boxed {
         return *this;
     }
 
+    T& operator*() { return *value_; }
     const T& operator*() const { return *value_; }
     const T* operator->() const { return value_.get(); }
     bool operator==(const Boxed& other) const { return *value_ == *other.value_; }

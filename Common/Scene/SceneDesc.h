@@ -1,6 +1,6 @@
 // The authoring scene: what a person writes, in code or in a scene file. Names, files and nesting are still there;
-// lengths are world units, angles degrees, colours linear RGB, everything in double precision. compileScene() turns it
-// into the compiled scene.
+// lengths are world units, angles degrees, colours linear RGB, everything but some meshes in double precision.
+// compileScene() turns it into the compiled scene.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -245,23 +245,39 @@ struct CylinderDesc {
     bool light = true;
     bool operator==(const CylinderDesc&) const = default;
 };
-struct MeshData {
-    std::vector<glm::dvec3> positions;
-    std::vector<glm::dvec3> normals;   // one per position, or none: flat
-    std::vector<glm::dvec2> uvs;       // one per position, or none
-    std::vector<glm::dvec2> uvs2;      // a second set, one per position, or none
-    std::vector<glm::dvec4> colors;    // one per position, or none: linear rgb, opacity; times a principled material's
-    std::vector<glm::dvec4> tangents;  // one per position, or none: direction of u, sign of the bitangent normal x u
+template <class Real>
+struct MeshOf {
+    using Vec2 = glm::vec<2, Real>;
+    using Vec3 = glm::vec<3, Real>;
+    using Vec4 = glm::vec<4, Real>;
+
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;         // one per position, or none: flat
+    std::vector<Vec2> uvs;             // one per position, or none
+    std::vector<Vec2> uvs2;            // a second set, one per position, or none
+    std::vector<Vec4> colors;          // one per position, or none: linear rgb, opacity; times a principled material's
+    std::vector<Vec4> tangents;        // one per position, or none: direction of u, sign of the bitangent normal x u
     std::vector<glm::uvec3> triangles; // indices into positions, counter-clockwise seen from the front
-    bool operator==(const MeshData&) const = default;
+    bool operator==(const MeshOf&) const = default;
+
+    template <class Other>
+    MeshOf<Other> as() const {
+        const auto converted = []<int N>(const std::vector<glm::vec<N, Real>>& values) {
+            return std::vector<glm::vec<N, Other>>(values.begin(), values.end());
+        };
+        return {converted(positions), converted(normals),  converted(uvs), converted(uvs2),
+                converted(colors),    converted(tangents), triangles};
+    }
 };
+using MeshData = MeshOf<double>;
+using FloatMeshData = MeshOf<float>; // in half the memory: large meshes of files that tell no more
 struct MeshFile {
     std::string file;    // OBJ
     std::string standIn; // name of a generated mesh that takes over where the file is missing; empty: that is an error
     bool operator==(const MeshFile&) const = default;
 };
 struct MeshDesc {
-    std::variant<MeshFile, Boxed<MeshData>> source;
+    std::variant<MeshFile, Boxed<MeshData>, Boxed<FloatMeshData>> source;
     std::string material; // empty: those of the file
     bool light = true;
     bool operator==(const MeshDesc&) const = default;

@@ -1,8 +1,10 @@
 // Too little memory, in steps from none to enough: whatever it suffices for is done, and what it does not suffice for
 // ends with one line and the documented exit code.
 #include <cmath>
+#include <fstream>
 #include <sstream>
 
+#include "tests/Gzip.h"
 #include "tests/program/Program.h"
 #include "tests/unit/GltfBuilder.h"
 
@@ -101,28 +103,35 @@ class MeshMemory : public Memory {
         return peak;
     }
     // What kernels read of the scene that was rendered last: arrays of the compiled scene, and the engine's.
-    std::size_t kernelBytes(std::size_t squares) const {
-        const std::size_t vertices = squares * kSide * kSide, triangles = squares * 2 * (kSide - 1) * (kSide - 1);
+    std::size_t kernelBytes(std::size_t vertices, std::size_t triangles) const {
         constexpr std::size_t kVertex = (3 + 3 + 2) * sizeof(float), kTriangle = (3 + 1) * sizeof(std::uint32_t);
         const std::size_t engine = jsonOf("s.json")["memory"]["device_bytes"];
         return vertices * kVertex + triangles * kTriangle + engine;
     }
 
-  private:
-    static nlohmann::json square(std::size_t number, scene::GltfBuilder& file) {
+    struct Square {
         std::vector<float> positions, normals, uvs;
         std::vector<std::uint32_t> corners;
-        for (std::size_t i = 0; i < kSide * kSide; ++i) {
-            const float x = static_cast<float>(i % kSide) / (kSide - 1),
-                        y = static_cast<float>(i / kSide) / (kSide - 1);
+    };
+    static Square bumpySquare(std::size_t number, std::size_t side) {
+        Square made;
+        const auto last = static_cast<float>(side - 1);
+        for (std::size_t i = 0; i < side * side; ++i) {
+            const float x = static_cast<float>(i % side) / last, y = static_cast<float>(i / side) / last;
             const float z = 0.05f * std::sin(20 * x) * std::sin(30 * y);
-            positions.insert(positions.end(), {x, y, z + static_cast<float>(number)});
-            normals.insert(normals.end(), {0, 0, 1});
-            uvs.insert(uvs.end(), {x, y});
-            if (i % kSide == kSide - 1 || i / kSide == kSide - 1) continue;
-            const auto a = static_cast<std::uint32_t>(i), b = a + static_cast<std::uint32_t>(kSide);
-            corners.insert(corners.end(), {a, a + 1, b, b, a + 1, b + 1});
+            made.positions.insert(made.positions.end(), {x, y, z + static_cast<float>(number)});
+            made.normals.insert(made.normals.end(), {0, 0, 1});
+            made.uvs.insert(made.uvs.end(), {x, y});
+            if (i % side == side - 1 || i / side == side - 1) continue;
+            const auto a = static_cast<std::uint32_t>(i), b = a + static_cast<std::uint32_t>(side);
+            made.corners.insert(made.corners.end(), {a, a + 1, b, b, a + 1, b + 1});
         }
+        return made;
+    }
+
+  private:
+    static nlohmann::json square(std::size_t number, scene::GltfBuilder& file) {
+        const auto [positions, normals, uvs, corners] = bumpySquare(number, kSide);
         return {{"attributes",
                  {{"POSITION", file.addAccessor(positions, "VEC3")},
                   {"NORMAL", file.addAccessor(normals, "VEC3")},
@@ -137,11 +146,99 @@ TEST_F(MeshMemory, IsLittleMoreThanWhatKernelsRead) {
     save("least.glb", 0);
     const std::size_t minimum = peakOf("least.glb");
     ASSERT_GT(minimum, 0u);
-    for (const auto& [squares, bound] : {std::pair{1, 1.3}, std::pair{4, 1.2}}) {
-        save("scene.glb", static_cast<std::size_t>(squares));
+    for (const auto& [count, bound] : {std::pair{1, 1.3}, std::pair{4, 1.2}}) {
+        const auto squares = static_cast<std::size_t>(count);
+        save("scene.glb", squares);
         const auto peak = static_cast<double>(peakOf("scene.glb") - minimum);
-        EXPECT_LT(peak, bound * static_cast<double>(kernelBytes(static_cast<std::size_t>(squares)))) << squares;
+        const std::size_t bytes = kernelBytes(squares * kSide * kSide, squares * 2 * (kSide - 1) * (kSide - 1));
+        EXPECT_LT(peak, bound * static_cast<double>(bytes)) << squares;
     }
+}
+
+// As exporters of pbrt write meshes: no two triangles share a vertex, so that attributes are most of it.
+class PbrtMeshMemory : public MeshMemory {
+  protected:
+    static constexpr std::size_t kTriangles = 2 * 199 * 199;
+
+    PbrtMeshMemory() {
+        const Square square = bumpySquare(0, 200);
+        for (const std::uint32_t corner : square.corners) {
+            const auto copy = [&](const std::vector<float>& from, std::size_t each, std::vector<float>& to) {
+                const float* const values = from.data() + each * corner;
+                to.insert(to.end(), values, values + each);
+            };
+            copy(square.positions, 3, positions_);
+            copy(square.normals, 3, normals_);
+            copy(square.uvs, 2, uvs_);
+        }
+    }
+    std::string triangleMesh() const {
+        std::ostringstream out;
+        const auto add = [&out](const char* name, const std::vector<float>& values) {
+            out << name << " [";
+            for (const float value : values) out << value << ' ';
+            out << "]\n";
+        };
+        add("Shape \"trianglemesh\" \"point3 P\"", positions_);
+        add("\"normal N\"", normals_);
+        add("\"point2 uv\"", uvs_);
+        out << "\"integer indices\" [";
+        for (std::size_t i = 0; i < 3 * kTriangles; ++i) out << i << ' ';
+        out << "]\n";
+        return out.str();
+    }
+    std::string ply(bool isBinary) const {
+        std::ostringstream out;
+        out << "ply\nformat " << (isBinary ? "binary_little_endian" : "ascii") << " 1.0\nelement vertex "
+            << 3 * kTriangles;
+        for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "u", "v"}) out << "\nproperty float " << name;
+        out << "\nelement face " << kTriangles << "\nproperty list uchar int vertex_indices\nend_header\n";
+        const auto add = [&](auto value, char end) {
+            if (isBinary)
+                out.write(reinterpret_cast<const char*>(&value), sizeof(value));
+            else
+                out << +value << end;
+        };
+        for (std::size_t i = 0; i < 3 * kTriangles; ++i) {
+            for (std::size_t c = 0; c < 3; ++c) add(positions_[3 * i + c], ' ');
+            for (std::size_t c = 0; c < 3; ++c) add(normals_[3 * i + c], ' ');
+            for (std::size_t c = 0; c < 2; ++c) add(uvs_[2 * i + c], c == 1 ? '\n' : ' ');
+        }
+        for (std::uint32_t i = 0; i < kTriangles; ++i) {
+            add(std::uint8_t{3}, ' ');
+            for (std::uint32_t c = 0; c < 3; ++c) add(3 * i + c, c == 2 ? '\n' : ' ');
+        }
+        return out.str();
+    }
+    std::size_t peakOfShape(const std::string& shape) const {
+        const std::string view = "LookAt .5 .5 2 .5 .5 0 0 1 0\nCamera \"perspective\"\nWorldBegin\n";
+        write("scene.pbrt", view + "LightSource \"infinite\"\n" + shape);
+        return peakOf("scene.pbrt");
+    }
+    void write(const std::string& name, const std::string& bytes) const {
+        std::ofstream(path(name), std::ios::binary) << bytes;
+    }
+
+  private:
+    std::vector<float> positions_, normals_, uvs_;
+};
+
+TEST_F(PbrtMeshMemory, IsLittleMoreThanWhatKernelsRead) {
+    const std::size_t minimum = peakOfShape(R"(Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0])");
+    ASSERT_GT(minimum, 0u);
+    const auto expectFew = [&](const char* what, const std::string& shape) {
+        const auto peak = static_cast<double>(peakOfShape(shape) - minimum);
+        EXPECT_LT(peak, 1.3 * static_cast<double>(kernelBytes(3 * kTriangles, kTriangles))) << what;
+    };
+    expectFew("trianglemesh", triangleMesh());
+    write("binary.ply", ply(true));
+    expectFew("binary", R"(Shape "plymesh" "string filename" "binary.ply")");
+    write("text.ply", ply(false));
+    expectFew("text", R"(Shape "plymesh" "string filename" "text.ply")");
+#if defined(RT_HAS_ZLIB)
+    write("packed.ply.gz", gzipOf(ply(true)));
+    expectFew("packed", R"(Shape "plymesh" "string filename" "packed.ply.gz")");
+#endif
 }
 
 #endif

@@ -2,6 +2,8 @@
 #include <cstring>
 #include <memory>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -66,6 +68,44 @@ TEST(CompileMemory, TakesOverWhatHasNotChanged) {
     const_cast<MeshData&>(*world).positions.assign(world->positions.size(), glm::dvec3(7)); // in place
     EXPECT_EQ(compileScene(scene, remembering)->hash, first->hash);
     EXPECT_NE(compileScene(scene)->hash, first->hash);
+}
+
+MeshDesc& worldMesh(SceneDesc& scene) {
+    return std::get<MeshDesc>(scene.objects[1].shape);
+}
+
+TEST(CompileMemory, MeshesThatNobodyNeedsAreGivenBack) {
+    const SceneDesc kept = sceneOfMeshes();
+    SceneDesc given = kept;
+    expectSameScene(*compileScene(std::move(given)), *compileScene(kept));
+    const MeshData& left = *std::get<Boxed<MeshData>>(worldMesh(given).source);
+    EXPECT_TRUE(left.positions.empty() && left.normals.empty() && left.uvs.empty() && left.triangles.empty());
+    // Those of prototypes are compiled for each of their instances.
+    EXPECT_EQ(given.prototypes, kept.prototypes);
+    // The next compilation takes over what it knows by its place in memory.
+    CompileMemory memory;
+    CompileOptions remembering;
+    remembering.memory = &memory;
+    SceneDesc edited = kept;
+    compileScene(std::move(edited), remembering);
+    EXPECT_EQ(edited.objects, kept.objects);
+}
+
+TEST(CompileMemory, MeshesInSinglePrecisionAreAsThoseInDouble) {
+    SceneDesc doubles = sceneOfMeshes();
+    const FloatMeshData data = std::as_const(*std::get<Boxed<MeshData>>(worldMesh(doubles).source)).as<float>();
+    worldMesh(doubles).source = data.as<double>();
+    SceneDesc floats = doubles;
+    worldMesh(floats).source = data;
+    expectSameScene(*compileScene(floats), *compileScene(doubles));
+    CompileMemory memory;
+    CompileOptions remembering;
+    remembering.memory = &memory;
+    compileScene(floats, remembering);
+    floats.objects[1] = {GroupDesc{{}, {floats.objects[1]}}}; // elsewhere in memory, at the same place
+    compileScene(floats, remembering);
+    expectSameScene(*compileScene(floats, remembering), *compileScene(floats));
+    expectSameScene(*compileScene(std::move(floats)), *compileScene(doubles));
 }
 
 } // namespace

@@ -7,11 +7,15 @@
 
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Error.h"
+#include "Common/Scene/Compiler/MaterialTable.h"
+#include "Common/Scene/Json/SceneJson.h"
+#include "tests/Gzip.h"
 #include "tests/unit/PbrtFolder.h"
 
 namespace rt::scene {
 namespace {
 
+using test::gzipOf;
 using test::meshOf;
 using test::shapeOf;
 
@@ -24,19 +28,6 @@ std::string bytesOf(Unsigned value, bool isBigEndian) {
         bytes += static_cast<char>(value >> (8 * at) & 0xff);
     }
     return bytes;
-}
-
-// As RFC 1952 has it, in one block that is not compressed.
-std::string gzipOf(const std::string& text) {
-    std::uint32_t crc = 0xffffffffu;
-    for (const char c : text) {
-        crc ^= static_cast<std::uint8_t>(c);
-        for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
-    }
-    const auto size = static_cast<std::uint16_t>(text.size());
-    std::string packed("\x1f\x8b\x08\0\0\0\0\0\0\xff\x01", 11);
-    packed += bytesOf(size, false) + bytesOf(static_cast<std::uint16_t>(~size), false) + text;
-    return packed + bytesOf(~crc, false) + bytesOf(static_cast<std::uint32_t>(text.size()), false);
 }
 
 TEST(PbrtFiles, TheTextIsReadHoweverItIsLaidOut) {
@@ -59,9 +50,9 @@ TEST(PbrtFiles, AnythingButAWordMayBeLong) {
     for (int i = 0; i < kVertices; ++i) text += std::to_string(i) + " " + std::to_string(i % 7) + " 0.25\n";
     text += "] \"integer indices\" [0 1 2 " + std::to_string(kVertices - 1) + " 3 4]";
     const SceneDesc scene = folder.load(text);
-    const MeshData& mesh = meshOf(scene, 0);
+    const FloatMeshData& mesh = meshOf<FloatMeshData>(scene, 0);
     ASSERT_EQ(mesh.positions.size(), std::size_t{kVertices});
-    EXPECT_EQ(mesh.positions.back(), glm::dvec3(kVertices - 1, (kVertices - 1) % 7, 0.25));
+    EXPECT_EQ(mesh.positions.back(), glm::vec3(kVertices - 1, (kVertices - 1) % 7, 0.25f));
     EXPECT_EQ(mesh.triangles[1], glm::uvec3(kVertices - 1, 3, 4));
     EXPECT_THROW(folder.load("WorldBegin " + std::string(1 << 16, 'x')), InputError);
     EXPECT_THROW(folder.load("WorldBegin \"" + std::string(1 << 16, 'x')), InputError);
@@ -75,6 +66,43 @@ TEST(PbrtFiles, WhatIsLeftOutIsTold) {
     EXPECT_TRUE(test::hasNotice(scene, "a.pbrt:5: Shape \"sphere\": \"float radios\" is left out; 2 times in all"));
     EXPECT_TRUE(test::hasNotice(scene, "left out: Sampler \"halton\", Integrator \"volpath\""));
     EXPECT_TRUE(test::hasNotice(scene, "--exposure 2"));
+}
+
+// Long lists are in single precision, so that they take half of the memory; the rest is as for a short one.
+TEST(PbrtFiles, ManyVerticesAreAsFew) {
+    const test::PbrtFolder folder;
+    constexpr int kVertices = 33000;
+    std::string list, rows, normals;
+    for (int i = 0; i < kVertices; ++i) {
+        const std::string position = std::to_string(i % 100) + ".1 " + std::to_string(i / 100) + " .3 ";
+        list += position;
+        rows += position + "0\n";
+        normals += "0 0 -.1 ";
+    }
+    const auto ply = [&](const std::string& last) {
+        return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(kVertices) +
+               "\nproperty float x\nproperty float y\nproperty float z\nproperty " + last +
+               "\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n" + rows + "3 0 1 100\n";
+    };
+    folder.write("floats.ply", ply("float nz"));
+    folder.write("doubles.ply", ply("double u"));
+    const SceneDesc scene = folder.load(
+        "WorldBegin\nReverseOrientation\nAreaLightSource \"diffuse\" \"float power\" 1\n"
+        "Shape \"trianglemesh\" \"integer indices\" [0 1 100] \"point3 P\" [" +
+        list + "] \"normal N\" [" + normals +
+        "]\nShape \"plymesh\" \"string filename\" \"floats.ply\"\n"
+        "Shape \"plymesh\" \"string filename\" \"doubles.ply\"\n");
+    const auto& mesh = meshOf<FloatMeshData>(scene, 0);
+    EXPECT_EQ(mesh.positions[102], glm::vec3(2.1f, 1, 0.3f));
+    EXPECT_EQ(mesh.normals[1], glm::vec3(0, 0, 0.1f));
+    EXPECT_EQ(mesh.triangles.front(), glm::uvec3(0, 1, 100)); // turned to the normals, then over
+    EXPECT_EQ(meshOf<FloatMeshData>(scene, 1).positions, mesh.positions);
+    EXPECT_EQ(meshOf(scene, 2).positions[102], glm::dvec3(2.1, 1, 0.3));
+    // Written as a scene file and read again it is the same mesh.
+    const SceneDesc again = parseScene(toJson(scene), "again.json", folder.path());
+    EXPECT_EQ(meshOf(again, 0), mesh.as<double>());
+    const std::string material = std::get<MeshDesc>(test::placed(again.objects, 0).shape).material;
+    EXPECT_TRUE(emits(again.materials.at(material)));
 }
 
 // As public scenes have them: none of it is a reason to stop.

@@ -48,10 +48,11 @@ template <class Shape>
 const scene::MaterialDesc& materialOf(const scene::SceneDesc& scene, std::size_t i) {
     return scene.materials.at(shapeOf<Shape>(scene, i).material);
 }
-inline const scene::MeshData& meshOf(const scene::SceneDesc& scene, std::size_t i) {
+template <class Mesh = scene::MeshData>
+const Mesh& meshOf(const scene::SceneDesc& scene, std::size_t i) {
     const auto& group = std::get<scene::GroupDesc>(scene.objects.at(i).shape);
     const auto& mesh = std::get<scene::MeshDesc>(group.objects.at(0).shape);
-    return *std::get<scene::Boxed<scene::MeshData>>(mesh.source);
+    return *std::get<scene::Boxed<Mesh>>(mesh.source);
 }
 
 inline bool hasNotice(const scene::SceneDesc& scene, const std::string& part) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -24,11 +23,22 @@
 namespace rt::app {
 namespace {
 
-std::shared_ptr<const scene::CompiledScene> compileWith(const scene::SceneDesc& desc, bool oneSidedLights,
+// Consumes a description that is moved in.
+template <class Desc>
+std::shared_ptr<const scene::CompiledScene> compileWith(Desc&& desc, bool oneSidedLights,
                                                         scene::CompileOptions options) {
     options.oneSidedLights = oneSidedLights;
     if (!options.loadTexels) options.loadTexels = makeTexelLoader();
-    return scene::compileScene(desc, options);
+    return scene::compileScene(std::forward<Desc>(desc), options);
+}
+
+scene::CompileOptions optionsOf(const scene::SceneDesc& desc, const SceneRequest& request,
+                                scene::CompileMemory* memory) {
+    scene::CompileOptions options;
+    options.memory = memory;
+    options.installedMaps = true;
+    if (!request.pose.empty()) options.camera = cameraOf(request.pose, desc);
+    return options;
 }
 
 // Of the source, or of the assets' file of this name.
@@ -71,17 +81,14 @@ std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request)
 std::shared_ptr<const scene::CompiledScene> compileKept(const scene::SceneDesc& desc, const SceneRequest& request,
                                                         scene::CompileMemory* memory) {
     const ReadsBelow confined(request.assetsBelow, request.source);
-    scene::CompileOptions options;
-    options.memory = memory;
-    options.installedMaps = true;
-    if (!request.pose.empty()) options.camera = cameraOf(request.pose, desc);
-    return compileWith(desc, request.oneSidedLights, options);
+    return compileWith(desc, request.oneSidedLights, optionsOf(desc, request, memory));
 }
 
 std::shared_ptr<const scene::CompiledScene> compile(scene::SceneDesc desc, const SceneRequest& request) {
-    std::optional<scene::SceneDesc> kept(std::move(desc));
-    auto compiled = compileKept(*kept, request, nullptr);
-    kept.reset(); // as large as what was made of it, and engines now want memory
+    const ReadsBelow confined(request.assetsBelow, request.source);
+    const scene::CompileOptions options = optionsOf(desc, request, nullptr);
+    auto compiled = compileWith(std::move(desc), request.oneSidedLights, options);
+    desc = {}; // as large as what was made of it, and engines now want memory
     releaseFreedMemory();
     return compiled;
 }

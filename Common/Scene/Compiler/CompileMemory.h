@@ -28,7 +28,7 @@ struct KeptSurface {
 // scene may be changed in place or freed, not even one that is no longer in the scene.
 struct CompileMemory {
     std::shared_ptr<const CompiledScene> scene;                    // the latest; empty before the first
-    std::multimap<const MeshData*, KeptSurface> surfaces;          // of that scene
+    std::multimap<const void*, KeptSurface> surfaces;              // of that scene, by mesh
     std::map<std::string, std::shared_ptr<const ObjModel>> models; // that were read
 };
 

@@ -43,6 +43,8 @@ const ObjModel& ModelCache::model(const MeshFile& source, bool withMaterials) {
 std::vector<ModelCache::Part> ModelCache::parts(const MeshDesc& object) {
     if (const auto* data = std::get_if<Boxed<MeshData>>(&object.source))
         return {{&**data, &materials_.find(object.material)}};
+    if (const auto* data = std::get_if<Boxed<FloatMeshData>>(&object.source))
+        return {{&**data, &materials_.find(object.material)}};
     const bool hasOwn = object.material.empty();
     const ObjModel& model = this->model(std::get<MeshFile>(object.source), hasOwn);
     std::vector<Part> parts;
@@ -60,6 +62,7 @@ std::vector<ModelCache::Part> ModelCache::parts(const MeshDesc& object) {
 std::size_t ModelCache::triangleCount(const MeshDesc& object) {
     std::size_t count = 0;
     if (const auto* data = std::get_if<Boxed<MeshData>>(&object.source)) return (*data)->triangles.size();
+    if (const auto* data = std::get_if<Boxed<FloatMeshData>>(&object.source)) return (*data)->triangles.size();
     for (const ObjPart& part : model(std::get<MeshFile>(object.source), object.material.empty()).parts)
         count += part.mesh.triangles.size();
     return count;

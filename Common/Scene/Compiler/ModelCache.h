@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "Common/Scene/Compiler/MaterialTable.h"
@@ -20,7 +21,7 @@ class ModelCache {
                MaterialTable& materials);
 
     struct Part {
-        const MeshData* mesh;
+        std::variant<const MeshData*, const FloatMeshData*> mesh;
         const MaterialDesc* material;
         bool isUnlit = false; // no light, whatever it emits
     };

@@ -21,11 +21,6 @@ namespace {
 
 constexpr double kMinRadius = 1e-9;
 constexpr double kLeastVolume = 1e-4; // of what a disk's or cylinder's half axes span, over that at right angles
-constexpr std::size_t kPieces = 4096; // room for what huge surfaces are divided into: arrays that grow are copied
-
-bool isExcluded(Part part, bool isShareable) {
-    return part == Part::Shared ? !isShareable : part == Part::Rest && isShareable;
-}
 
 // Whether single precision inverts the map of an ellipsoid, as its sampling does. Long ones whose axes the map does not
 // keep at right angles take too many digits.
@@ -101,16 +96,7 @@ void PrimitiveSink::expect(const PrimitiveCounts& counts) {
     reserveLarge(out_.spheres, counts.spheres);
     reserveLarge(out_.quads, counts.quads);
     reserveLarge(out_.rounds, counts.rounds);
-    const auto makeRoom = [](auto& array, std::size_t count) {
-        if (count > 0) reserveLarge(array, count + kPieces);
-    };
-    makeRoom(out_.triangles, counts.triangles);
-    makeRoom(out_.triangleMesh, counts.triangles);
-    makeRoom(out_.positions, counts.positions);
-    makeRoom(out_.normals, counts.normals);
-    makeRoom(out_.uvs, counts.uvs);
-    makeRoom(out_.colors, counts.colors);
-    makeRoom(out_.tangents, counts.tangents);
+    expected_ = counts;
 }
 
 // ---- spheres -------------------------------------------------------------------------------------------------------
@@ -303,18 +289,6 @@ void PrimitiveSink::round(shared::Round record, const MaterialDesc& material, bo
         bounds_.add(center - reach);
         bounds_.add(center + reach);
     }
-}
-
-// ---- meshes --------------------------------------------------------------------------------------------------------
-
-void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at) {
-    if (isExcluded(at.part, !emits(own))) return;
-    const Affine map = at.outer * at.local;
-    const MaterialDesc& material = at.material ? *at.material : own;
-    const KeptSurface* before = known(data, map, isInWorld());
-    const std::optional<KeptSurface> made =
-        before ? takeOver(*before, data, material, light) : surface(data, material, light, map, at.place, isInWorld());
-    if (made && memory_ != nullptr) kept_.emplace(&data, *made);
 }
 
 // ---- punctual lights -----------------------------------------------------------------------------------------------

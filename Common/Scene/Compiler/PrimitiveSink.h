@@ -21,6 +21,10 @@ namespace rt::scene {
 // space. The rest goes to the world for each instance.
 enum class Part { All, Shared, Rest };
 
+inline bool isExcluded(Part part, bool isShareable) {
+    return part == Part::Shared ? !isShareable : part == Part::Rest && isShareable;
+}
+
 // How an object stands in what is being filled.
 struct Placement {
     Affine outer;                           // prototype to target space
@@ -48,7 +52,7 @@ class PrimitiveSink {
     PrimitiveSink(CompiledScene& out, MaterialTable& materials, const CompileMemory* memory = nullptr)
         : out_(out), materials_(materials), memory_(memory) {}
 
-    // Makes room for what comes: arrays that grow are copied again and again.
+    // What comes, for which there is to be room: arrays that grow are copied again and again.
     void expect(const PrimitiveCounts& counts);
 
     void add(const SphereDesc& sphere, const Placement& at);
@@ -57,8 +61,10 @@ class PrimitiveSink {
     void add(const BoxDesc& box, const Placement& at);
     void add(const DiskDesc& disk, const Placement& at);
     void add(const CylinderDesc& cylinder, const Placement& at);
-    // One surface of a mesh with one material.
-    void add(const MeshData& mesh, const MaterialDesc& material, bool light, const Placement& at);
+    // One surface of a mesh, a MeshData or FloatMeshData, with one material. One that is not const is given back piece
+    // by piece, where there is no memory of a compilation before.
+    template <class Mesh>
+    void add(Mesh& mesh, const MaterialDesc& material, bool light, const Placement& at);
 
     void add(const PointLightDesc& light, const Placement& at);
     void add(const SpotLightDesc& light, const Placement& at);
@@ -69,7 +75,7 @@ class PrimitiveSink {
 
     const std::vector<Ellipsoid>& ellipsoids() const { return ellipsoids_; }
     // For the next compilation; once.
-    std::multimap<const MeshData*, KeptSurface> takeSurfaces() { return std::move(kept_); }
+    std::multimap<const void*, KeptSurface> takeSurfaces() { return std::move(kept_); }
     // One line for each kind of thing that was dropped or is doubtful.
     void appendNotices(std::vector<std::string>& notices) const;
 
@@ -82,20 +88,24 @@ class PrimitiveSink {
     void quad(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, const MaterialDesc& material,
               bool light, const Affine& map);
     void round(shared::Round record, const MaterialDesc& material, bool light);
-    std::optional<KeptSurface> surface(const MeshData& data, const MaterialDesc& material, bool light,
-                                       const Affine& map, const std::string& place, bool mayBeDivided);
-    const KeptSurface* known(const MeshData& data, const Affine& map, bool mayBeDivided) const;
-    KeptSurface takeOver(KeptSurface surface, const MeshData& data, const MaterialDesc& material, bool light);
+    void makeRoomForTriangles();
+    template <class Mesh>
+    std::optional<KeptSurface> surface(Mesh& data, const MaterialDesc& material, bool light, const Affine& map,
+                                       const std::string& place, bool mayBeDivided);
+    const KeptSurface* known(const void* mesh, const Affine& map, bool mayBeDivided) const;
+    template <class Real>
+    KeptSurface takeOver(KeptSurface surface, const MeshOf<Real>& data, const MaterialDesc& material, bool light);
     void finishMesh(const shared::Mesh& mesh, KeptSurface& made);
     void appendTriangleLight(std::size_t triangle, const shared::vec3& a, const shared::vec3& b, const shared::vec3& c,
                              std::uint32_t material);
     struct VertexUse;
-    shared::Mesh meshRecord(const MeshData& data, const MaterialDesc& material, std::size_t triangleCount,
+    template <class Real>
+    shared::Mesh meshRecord(const MeshOf<Real>& data, const MaterialDesc& material, std::size_t triangleCount,
                             bool light) const;
     std::vector<VertexUse> appendTriangles(const shared::Mesh& mesh, const std::vector<shared::vec3>& positions,
                                            const WoundTriangles& triangles, const std::vector<std::uint32_t>& order);
-    void appendAttributes(shared::Mesh& mesh, const MeshData& data, const Affine& map,
-                          const std::vector<VertexUse>& uses);
+    template <class Mesh>
+    void appendAttributes(shared::Mesh& mesh, Mesh& data, const Affine& map, const std::vector<VertexUse>& uses);
     const MaterialDesc& materialOf(const std::string& name, const Placement& at) const;
     bool isInWorld() const { return out_.geometries.empty(); } // what is filled now: the geometry without instances
     bool isLight(std::uint32_t material, bool wanted) const;
@@ -105,7 +115,8 @@ class PrimitiveSink {
     CompiledScene& out_;
     MaterialTable& materials_;
     const CompileMemory* const memory_;
-    std::multimap<const MeshData*, KeptSurface> kept_; // of what is compiled now
+    std::multimap<const void*, KeptSurface> kept_; // of what is compiled now
+    PrimitiveCounts expected_;
     Bounds bounds_;
     std::vector<Ellipsoid> ellipsoids_;
     struct {

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
 
 #include <glm/trigonometric.hpp>
 
@@ -31,8 +34,10 @@ void setRows(const Affine& map, shared::vec4 (&rows)[3]) {
 
 class Compiler {
   public:
-    Compiler(const SceneDesc& desc, const CompileOptions& options)
+    // `consumed`: desc, if nobody needs its meshes any more, or null.
+    Compiler(const SceneDesc& desc, SceneDesc* consumed, const CompileOptions& options)
         : desc_(desc),
+          consumed_(consumed),
           camera_(options.camera.value_or(desc.camera)),
           textures_(desc, options, *out_),
           materials_(desc, options, *out_, textures_),
@@ -75,7 +80,9 @@ class Compiler {
   private:
     // ---- objects ----------------------------------------------------------------------------------------------------
 
-    void emit(const std::vector<ObjectDesc>& objects, const Placement& parent) {
+    // Of objects that are not const, meshes are given back as they are compiled.
+    template <class Objects>
+    void emit(Objects& objects, const Placement& parent) {
         Placement at = parent;
         for (std::size_t i = 0; i < objects.size(); ++i) {
             if (objects[i].hidden) {
@@ -83,7 +90,7 @@ class Compiler {
                 continue;
             }
             at.place.assign(parent.place).append("/").append(std::to_string(i));
-            std::visit([&](const auto& object) { emitOne(object, at); }, objects[i].shape);
+            std::visit([&](auto& object) { emitOne(object, at); }, objects[i].shape);
             const bool isGroup = std::holds_alternative<GroupDesc>(objects[i].shape);
             if (emitsOwnObjects_ && !isGroup) noteOrigin(nextObject_++);
         }
@@ -103,22 +110,38 @@ class Compiler {
         note(ellipsoidOrigins_, notedEllipsoids_, sink_.ellipsoids().size());
     }
 
-    template <typename Surface>
-    void emitOne(const Surface& surface, const Placement& at) {
-        sink_.add(surface, at);
+    template <typename Shape>
+    void emitOne(Shape& shape, const Placement& at) {
+        using Desc = std::remove_const_t<Shape>;
+        if constexpr (std::is_same_v<Desc, GroupDesc>)
+            emitGroup(shape, at);
+        else if constexpr (std::is_same_v<Desc, MeshDesc>)
+            emitMesh(shape, at);
+        else if constexpr (std::is_same_v<Desc, MediumDesc>)
+            emitMedium(shape, at);
+        else if constexpr (!std::is_same_v<Desc, InstanceDesc>) // the plan has those
+            sink_.add(shape, at);
     }
-    void emitOne(const MeshDesc& object, const Placement& at) {
-        for (const ModelCache::Part& part : models_.parts(object))
-            sink_.add(*part.mesh, *part.material, object.light && !part.isUnlit, at);
-    }
-    void emitOne(const GroupDesc& group, Placement at) {
+    template <typename Group>
+    void emitGroup(Group& group, Placement at) {
         at.local = at.local * toAffine(group.transform);
         at.place += "/objects";
         emit(group.objects, at);
     }
-    void emitOne(const InstanceDesc&, const Placement&) {} // the plan has them
+    void emitMesh(const MeshDesc& object, const Placement& at) {
+        for (const ModelCache::Part& part : models_.parts(object)) {
+            const bool isLight = object.light && !part.isUnlit;
+            std::visit([&](const auto* mesh) { sink_.add(*mesh, *part.material, isLight, at); }, part.mesh);
+        }
+    }
+    void emitMesh(MeshDesc& object, const Placement& at) {
+        const auto consume = [&](auto& mesh) { sink_.add(mesh, materials_.find(object.material), object.light, at); };
+        if (auto* data = std::get_if<Boxed<MeshData>>(&object.source)) return consume(**data);
+        if (auto* data = std::get_if<Boxed<FloatMeshData>>(&object.source)) return consume(**data);
+        emitMesh(std::as_const(object), at);
+    }
 
-    void emitOne(const MediumDesc& desc, const Placement& at) {
+    void emitMedium(const MediumDesc& desc, const Placement& at) {
         if (at.part == Part::Shared) return;
         shared::Medium medium{};
         Affine boundary = at.outer * at.local;
@@ -146,6 +169,15 @@ class Compiler {
 
     // ---- totals -----------------------------------------------------------------------------------------------------
 
+    template <class Real>
+    static void countMesh(const MeshOf<Real>& mesh, std::size_t times, PrimitiveCounts& sum) {
+        sum.triangles += times * mesh.triangles.size();
+        sum.positions += times * mesh.positions.size();
+        sum.normals += times * mesh.normals.size();
+        sum.uvs += times * (mesh.uvs.size() + mesh.uvs2.size());
+        sum.colors += times * mesh.colors.size();
+        sum.tangents += times * mesh.tangents.size();
+    }
     // Of objects that are added so many times.
     void count(const std::vector<ObjectDesc>& objects, std::size_t times, PrimitiveCounts& sum) {
         for (const ObjectDesc& object : objects) {
@@ -164,14 +196,8 @@ class Compiler {
             else if (const auto* group = std::get_if<GroupDesc>(&shape))
                 count(group->objects, times, sum);
             else if (const auto* mesh = std::get_if<MeshDesc>(&shape))
-                for (const ModelCache::Part& part : models_.parts(*mesh)) {
-                    sum.triangles += times * part.mesh->triangles.size();
-                    sum.positions += times * part.mesh->positions.size();
-                    sum.normals += times * part.mesh->normals.size();
-                    sum.uvs += times * (part.mesh->uvs.size() + part.mesh->uvs2.size());
-                    sum.colors += times * part.mesh->colors.size();
-                    sum.tangents += times * part.mesh->tangents.size();
-                }
+                for (const ModelCache::Part& part : models_.parts(*mesh))
+                    std::visit([&](const auto* data) { countMesh(*data, times, sum); }, part.mesh);
         }
     }
 
@@ -191,7 +217,11 @@ class Compiler {
 
     void emitWorld(const InstancePlan& plan, const Affine& toWorld) {
         emitsOwnObjects_ = true;
-        emit(desc_.objects, {toWorld, {}, Part::All, nullptr, "/objects"});
+        const Placement world{toWorld, {}, Part::All, nullptr, "/objects"};
+        if (consumed_ != nullptr)
+            emit(consumed_->objects, world);
+        else
+            emit(desc_.objects, world);
         emitsOwnObjects_ = false;
         for (const auto& [name, prototype] : plan.prototypes())
             for (const Occurrence& occurrence : prototype.occurrences) {
@@ -323,6 +353,7 @@ class Compiler {
     }
 
     const SceneDesc& desc_;
+    SceneDesc* const consumed_;
     const CameraDesc camera_;
     std::shared_ptr<CompiledScene> out_ = std::make_shared<CompiledScene>();
     TextureTable textures_;
@@ -343,7 +374,12 @@ class Compiler {
 } // namespace
 
 std::shared_ptr<const CompiledScene> compileScene(const SceneDesc& desc, const CompileOptions& options) {
-    return Compiler(desc, options).run();
+    return Compiler(desc, nullptr, options).run();
+}
+
+std::shared_ptr<const CompiledScene> compileScene(SceneDesc&& desc, const CompileOptions& options) {
+    // What is compiled next would take over surfaces of meshes that are no more.
+    return Compiler(desc, options.memory == nullptr ? &desc : nullptr, options).run();
 }
 
 } // namespace rt::scene

@@ -50,5 +50,7 @@ struct CompileOptions {
 // position, and collects the feature mask. Degenerate primitives are dropped and counted in a notice. Throws InputError
 // naming the scene and the place.
 std::shared_ptr<const CompiledScene> compileScene(const SceneDesc& desc, const CompileOptions& options = {});
+// As that, with less memory: meshes are given back on the way, and what is left of the scene is for nothing.
+std::shared_ptr<const CompiledScene> compileScene(SceneDesc&& desc, const CompileOptions& options = {});
 
 } // namespace rt::scene

@@ -90,7 +90,8 @@ bool isRepresentable(const glm::dvec3& v) {
     return fits(v.x) && fits(v.y) && fits(v.z);
 }
 
-void checkMesh(const MeshData& mesh, const std::string& place) {
+template <class Real>
+void checkMesh(const MeshOf<Real>& mesh, const std::string& place) {
     if (mesh.triangles.empty()) refuse(place, "a mesh must have a triangle");
     if (!std::ranges::all_of(mesh.positions, isRepresentable)) refuse(place + "/positions", "numbers must be finite");
     const std::size_t count = mesh.positions.size();
@@ -111,11 +112,12 @@ class ObjectCheck {
             return checkAlone({empty}, place);
         }
         if (const auto* mesh = std::get_if<MeshDesc>(&object.shape)) {
-            if (const auto* data = std::get_if<Boxed<MeshData>>(&mesh->source)) {
+            if (!std::holds_alternative<MeshFile>(mesh->source)) {
                 if (mesh->material.empty()) refuse(place, "a mesh without a file needs a material");
                 checkName(object, place);
-                return checkMesh(**data, place);
             }
+            if (const auto* data = std::get_if<Boxed<MeshData>>(&mesh->source)) return checkMesh(**data, place);
+            if (const auto* data = std::get_if<Boxed<FloatMeshData>>(&mesh->source)) return checkMesh(**data, place);
         }
         if (const auto* spheres = std::get_if<SphereSetDesc>(&object.shape)) {
             if (!std::ranges::all_of(spheres->centers, isRepresentable))

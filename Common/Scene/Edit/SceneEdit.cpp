@@ -82,7 +82,8 @@ std::size_t heapOf(const std::vector<ObjectDesc>& objects) {
     for (const ObjectDesc& object : objects) sum += heapOf(object);
     return sum;
 }
-std::size_t heapOf(const MeshData& mesh) {
+template <class Real>
+std::size_t heapOf(const MeshOf<Real>& mesh) {
     return heapOf(mesh.positions) + heapOf(mesh.normals) + heapOf(mesh.uvs) + heapOf(mesh.uvs2) + heapOf(mesh.colors) +
            heapOf(mesh.tangents) + heapOf(mesh.triangles);
 }
@@ -95,8 +96,10 @@ struct HeapOfObject {
         return heapOf(spheres.centers) + heapOf(spheres.material);
     }
     std::size_t operator()(const MeshDesc& mesh) const {
-        const auto* data = std::get_if<Boxed<MeshData>>(&mesh.source);
-        return heapOf(mesh.material) + (data != nullptr ? sizeof(MeshData) + heapOf(**data) : 0);
+        std::size_t sum = heapOf(mesh.material);
+        if (const auto* data = std::get_if<Boxed<MeshData>>(&mesh.source)) sum += sizeof **data + heapOf(**data);
+        if (const auto* data = std::get_if<Boxed<FloatMeshData>>(&mesh.source)) sum += sizeof **data + heapOf(**data);
+        return sum;
     }
     std::size_t operator()(const GroupDesc& group) const { return heapOf(group.transform) + heapOf(group.objects); }
     std::size_t operator()(const InstanceDesc& instance) const {

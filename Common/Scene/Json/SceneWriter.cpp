@@ -262,15 +262,8 @@ OrderedJson json(const CylinderDesc& cylinder) {
         {{"type", "cylinder"}, {"base", json(cylinder.base)}, {"top", json(cylinder.top)}, {"radius", cylinder.radius}},
         cylinder);
 }
-OrderedJson json(const MeshDesc& mesh) {
-    OrderedJson out = {{"type", "mesh"}};
-    if (const auto* source = std::get_if<MeshFile>(&mesh.source)) {
-        out["file"] = source->file;
-        setUnless(out, "stand_in", source->standIn, std::string());
-        return withSurface(std::move(out), mesh);
-    }
-    const MeshData& data = *std::get<Boxed<MeshData>>(mesh.source);
-    out = withSurface(std::move(out), mesh);
+template <class Real>
+void setData(OrderedJson& out, const MeshOf<Real>& data) {
     out["positions"] = flat(data.positions);
     if (!data.normals.empty()) out["normals"] = flat(data.normals);
     if (!data.uvs.empty()) out["uvs"] = flat(data.uvs);
@@ -278,6 +271,19 @@ OrderedJson json(const MeshDesc& mesh) {
     if (!data.colors.empty()) out["colors"] = flat(data.colors);
     if (!data.tangents.empty()) out["tangents"] = flat(data.tangents);
     out["triangles"] = flat(data.triangles);
+}
+OrderedJson json(const MeshDesc& mesh) {
+    OrderedJson out = {{"type", "mesh"}};
+    if (const auto* source = std::get_if<MeshFile>(&mesh.source)) {
+        out["file"] = source->file;
+        setUnless(out, "stand_in", source->standIn, std::string());
+        return withSurface(std::move(out), mesh);
+    }
+    out = withSurface(std::move(out), mesh);
+    if (const auto* data = std::get_if<Boxed<MeshData>>(&mesh.source))
+        setData(out, **data);
+    else
+        setData(out, *std::get<Boxed<FloatMeshData>>(mesh.source));
     return out;
 }
 OrderedJson json(const MediumDesc& medium) {

@@ -305,10 +305,10 @@ class PbrtLoader {
         std::visit(set, object.shape);
         auto* mesh = std::get_if<MeshDesc>(&object.shape);
         if (!mesh || !needsTangents) return;
-        MeshData data = *std::get<Boxed<MeshData>>(mesh->source);
-        if (data.uvs.empty()) return;
-        addTangents(data, 0);
-        mesh->source = std::move(data);
+        if (const auto* single = std::get_if<Boxed<FloatMeshData>>(&mesh->source))
+            mesh->source = (*single)->as<double>();
+        MeshData& data = *std::get<Boxed<MeshData>>(mesh->source);
+        if (!data.uvs.empty()) addTangents(data, 0);
     }
 
     // Into the object that is being defined, else into the world.

@@ -55,7 +55,34 @@ void expectOne(const PbrtParameter& parameter, std::size_t count) {
     if (count != 1) parameter.fail("has " + counted(count, "value", "values") + ": must have 1");
 }
 
+template <int N, class Real>
+std::vector<glm::vec<N, Real>> taken(const PbrtParameter& parameter, const char* each) {
+    const std::size_t count = parameter.count();
+    if (count == 0 || count % N != 0)
+        parameter.fail("has " + counted(count, "number", "numbers") + ": must have " + each + " for each");
+    std::vector<glm::vec<N, Real>> values;
+    values.reserve(count / N);
+    glm::vec<N, Real> value(0);
+    int place = 0;
+    const auto add = [&](auto number) {
+        value[place++] = static_cast<Real>(number);
+        if (place < N) return;
+        values.push_back(value);
+        place = 0;
+    };
+    for (const double number : std::exchange(parameter.numbers, {})) add(number);
+    parameter.longList.drain(add);
+    return values;
+}
+
 } // namespace
+
+void PbrtParameter::addNumber(double number) {
+    const bool mayBeLong = type == PbrtType::Vector3 || type == PbrtType::Point2 || type == PbrtType::Number;
+    if (longList.size() == 0 && (!mayBeLong || numbers.size() < kShortList)) return numbers.push_back(number);
+    for (const double before : std::exchange(numbers, {})) longList.push_back(before);
+    longList.push_back(number);
+}
 
 const char* const kPbrtTypes =
     "float, integer, string, bool, point2, vector2, point3, vector3, normal, spectrum, rgb, blackbody, texture";
@@ -90,7 +117,7 @@ const PbrtParameter* PbrtParameters::find(std::string_view name, PbrtType type) 
 double PbrtParameters::number(std::string_view name, double usual) const {
     const PbrtParameter* found = find(name, PbrtType::Number);
     if (!found) return usual;
-    expectOne(*found, found->numbers.size());
+    expectOne(*found, found->count());
     return pbrtFinite(*found, found->numbers.front());
 }
 
@@ -142,35 +169,33 @@ std::string PbrtParameters::oneOf(std::string_view name, const std::string& usua
 glm::dvec3 PbrtParameters::vector(std::string_view name, const glm::dvec3& usual) const {
     const PbrtParameter* found = find(name, PbrtType::Vector3);
     if (!found) return usual;
-    if (found->numbers.size() != 3)
-        found->fail("has " + counted(found->numbers.size(), "number", "numbers") + ": must have 3");
+    if (found->count() != 3) found->fail("has " + counted(found->count(), "number", "numbers") + ": must have 3");
     for (const double number : found->numbers) pbrtFinite(*found, number);
     return {found->numbers[0], found->numbers[1], found->numbers[2]};
 }
 
-std::vector<glm::dvec3> PbrtParameters::takeVectors(std::string_view name) const {
+template <class Real>
+std::vector<glm::vec<3, Real>> PbrtParameters::takeVectors(std::string_view name) const {
     const PbrtParameter* found = find(name, PbrtType::Vector3);
-    if (!found) return {};
-    const std::vector<double> numbers = std::exchange(found->numbers, {});
-    if (numbers.empty() || numbers.size() % 3 != 0)
-        found->fail("has " + counted(numbers.size(), "number", "numbers") + ": must have three for each");
-    std::vector<glm::dvec3> values(numbers.size() / 3);
-    for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
-    return values;
+    return found ? taken<3, Real>(*found, "three") : std::vector<glm::vec<3, Real>>();
 }
 
 // Files of earlier versions give these as floats.
-std::vector<glm::dvec2> PbrtParameters::takePairs(std::string_view name) const {
+template <class Real>
+std::vector<glm::vec<2, Real>> PbrtParameters::takePairs(std::string_view name) const {
     const PbrtParameter* found = find(name);
-    if (!found) return {};
-    if (found->type != PbrtType::Number) found = find(name, PbrtType::Point2);
-    const std::vector<double> numbers = std::exchange(found->numbers, {});
-    if (numbers.empty() || numbers.size() % 2 != 0)
-        found->fail("has " + counted(numbers.size(), "number", "numbers") + ": must have two for each");
-    std::vector<glm::dvec2> values(numbers.size() / 2);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = {numbers[2 * i], numbers[2 * i + 1]};
-    return values;
+    if (found && found->type != PbrtType::Number) found = find(name, PbrtType::Point2);
+    return found ? taken<2, Real>(*found, "two") : std::vector<glm::vec<2, Real>>();
+}
+
+template std::vector<glm::dvec3> PbrtParameters::takeVectors<double>(std::string_view) const;
+template std::vector<glm::vec3> PbrtParameters::takeVectors<float>(std::string_view) const;
+template std::vector<glm::dvec2> PbrtParameters::takePairs<double>(std::string_view) const;
+template std::vector<glm::vec2> PbrtParameters::takePairs<float>(std::string_view) const;
+
+bool PbrtParameters::isLong(std::string_view name) const {
+    const PbrtParameter* found = find(name);
+    return found && found->longList.size() > 0;
 }
 
 std::vector<const PbrtParameter*> PbrtParameters::unused() const {

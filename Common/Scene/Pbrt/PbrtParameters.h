@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "Common/Scene/Pbrt/PbrtNumbers.h"
 #include "Common/Scene/Pbrt/PbrtPlace.h"
 
 namespace rt::scene {
@@ -25,10 +26,15 @@ struct PbrtParameter {
     std::string typeName, name; // as they were written
     PbrtPlace place;
     mutable std::vector<double> numbers;        // of all but integers
+    mutable PbrtLongList longList;              // instead, where they are more than kShortList
     mutable std::vector<std::int32_t> integers; // also truth values
     std::vector<std::string> texts;
     const PbrtColorSpace* space = nullptr; // of Rgb: the one in use there
     mutable bool isUsed = false;
+
+    static constexpr std::size_t kShortList = std::size_t{1} << 16; // only meshes have more
+    std::size_t count() const { return numbers.size() + longList.size(); }
+    void addNumber(double number);
 
     std::string label() const { return '"' + typeName + ' ' + name + '"'; }
     [[noreturn]] void fail(const std::string& message) const { place.fail(label() + ": " + message); }
@@ -61,8 +67,11 @@ class PbrtParameters {
                       std::initializer_list<const char*> allowed) const;
     glm::dvec3 vector(std::string_view name, const glm::dvec3& usual) const; // finite
     // Flat arrays; empty: there is none. They may be all of a file, so that nothing is left where they were.
-    std::vector<glm::dvec3> takeVectors(std::string_view name) const;
-    std::vector<glm::dvec2> takePairs(std::string_view name) const;
+    template <class Real>
+    std::vector<glm::vec<3, Real>> takeVectors(std::string_view name) const;
+    template <class Real>
+    std::vector<glm::vec<2, Real>> takePairs(std::string_view name) const;
+    bool isLong(std::string_view name) const; // of single precision
 
     [[noreturn]] void fail(const std::string& message) const { place.fail(what + ": " + message); }
     std::vector<const PbrtParameter*> unused() const;

@@ -235,7 +235,7 @@ void PbrtParser::addValue(PbrtParameter& parameter) {
     }
     const std::optional<double> value = isQuoted ? std::nullopt : numberOf(text);
     if (!value) refuse("a number");
-    parameter.numbers.push_back(*value);
+    parameter.addNumber(*value);
 }
 
 } // namespace rt::scene

@@ -71,13 +71,14 @@ void addPatch(const MeshData& vertices, const PatchCorners& corners, int cuts, b
 
 } // namespace
 
-MeshData pbrtVertices(const PbrtParameters& parameters) {
-    MeshData mesh;
-    mesh.positions = parameters.takeVectors("P");
+template <class Real>
+MeshOf<Real> pbrtVertices(const PbrtParameters& parameters) {
+    MeshOf<Real> mesh;
+    mesh.positions = parameters.takeVectors<Real>("P");
     if (mesh.positions.empty()) parameters.fail("\"point3 P\" is missing");
-    mesh.normals = parameters.takeVectors("N");
+    mesh.normals = parameters.takeVectors<Real>("N");
     for (const char* name : {"uv", "st"})
-        if (mesh.uvs.empty()) mesh.uvs = parameters.takePairs(name);
+        if (mesh.uvs.empty()) mesh.uvs = parameters.takePairs<Real>(name);
     const auto check = [&](const char* name, const auto& values) {
         if (values.empty()) return;
         if (values.size() != mesh.positions.size())
@@ -93,6 +94,8 @@ MeshData pbrtVertices(const PbrtParameters& parameters) {
     check("uv", mesh.uvs);
     return mesh;
 }
+template MeshData pbrtVertices(const PbrtParameters&);
+template FloatMeshData pbrtVertices(const PbrtParameters&);
 
 std::vector<std::uint32_t> pbrtIndices(const PbrtParameters& parameters, std::size_t vertices, std::size_t corners) {
     const PbrtParameter* found = parameters.find("indices", PbrtType::Integer);
@@ -107,9 +110,8 @@ std::vector<std::uint32_t> pbrtIndices(const PbrtParameters& parameters, std::si
     if (found->integers.empty() || found->integers.size() % corners != 0)
         found->fail("has " + counted(found->integers.size(), "index", "indices") + ": must have " +
                     std::to_string(corners) + " for each face");
-    const std::vector<std::int32_t> integers = std::exchange(found->integers, {});
-    indices.reserve(integers.size());
-    for (const std::int32_t index : integers) {
+    indices.reserve(found->integers.size());
+    for (const std::int32_t index : std::exchange(found->integers, {})) {
         if (index < 0 || static_cast<std::size_t>(index) >= vertices)
             found->fail(std::to_string(index) + ": must be from 0 to " + std::to_string(vertices - 1));
         indices.push_back(static_cast<std::uint32_t>(index));

@@ -11,7 +11,8 @@
 namespace rt::scene {
 
 // P, N and uv (st) of a mesh. Throws InputError, also where there are not as many of each.
-MeshData pbrtVertices(const PbrtParameters& parameters);
+template <class Real>
+MeshOf<Real> pbrtVertices(const PbrtParameters& parameters);
 // Of `corners` a face, each below `vertices`; without any, of one face.
 std::vector<std::uint32_t> pbrtIndices(const PbrtParameters& parameters, std::size_t vertices, std::size_t corners);
 

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "Common/Core/Printable.h"
@@ -152,27 +153,47 @@ class PlyReader {
         budget_.add(in_.size());
     }
 
-    MeshData read() {
+    std::variant<MeshData, FloatMeshData> read() {
         readHeader();
-        for (const PlyElement& element : elements_) {
-            budget_.spend(element.count, place_);
-            if (element.name == "vertex")
-                readVertices(element);
-            else if (element.name == "face")
-                readFaces(element);
-            else
-                for (std::uint64_t i = 0; i < element.count; ++i) skip(element.properties);
-        }
-        for (const glm::uvec3& triangle : mesh_.triangles)
-            for (int c = 0; c < 3; ++c)
-                if (triangle[c] >= mesh_.positions.size())
-                    in_.fail("a face has the vertex " + std::to_string(triangle[c]) + ": must be below " +
-                             std::to_string(mesh_.positions.size()));
-        if (mesh_.triangles.empty()) in_.fail("there is no face in it");
-        return std::move(mesh_);
+        if (isSingle()) return read<float>();
+        return read<double>();
     }
 
   private:
+    // Few vertices take no memory worth saving; numbers of a text may tell more than their type says.
+    bool isSingle() const {
+        constexpr std::uint64_t kMany = std::uint64_t{1} << 15;
+        for (const PlyElement& element : elements_) {
+            if (element.name != "vertex") continue;
+            const auto isShort = [](const PlyProperty& p) {
+                return p.role == PlyRole::None || p.type->bytes <= 2 || (p.type->isReal && p.type->bytes == 4);
+            };
+            return element.count > kMany && std::ranges::all_of(element.properties, isShort);
+        }
+        return false;
+    }
+
+    template <class Real>
+    MeshOf<Real> read() {
+        MeshOf<Real> mesh;
+        for (const PlyElement& element : elements_) {
+            budget_.spend(element.count, place_);
+            if (element.name == "vertex")
+                readVertices(element, mesh);
+            else if (element.name == "face")
+                readFaces(element, mesh.triangles);
+            else
+                for (std::uint64_t i = 0; i < element.count; ++i) skip(element.properties);
+        }
+        for (const glm::uvec3& triangle : mesh.triangles)
+            for (int c = 0; c < 3; ++c)
+                if (triangle[c] >= mesh.positions.size())
+                    in_.fail("a face has the vertex " + std::to_string(triangle[c]) + ": must be below " +
+                             std::to_string(mesh.positions.size()));
+        if (mesh.triangles.empty()) in_.fail("there is no face in it");
+        return mesh;
+    }
+
     void readHeader() {
         if (in_.line() != "ply") in_.fail("its first line must be \"ply\"");
         for (;;) {
@@ -255,8 +276,9 @@ class PlyReader {
         for (const PlyProperty& property : properties) skip(property);
     }
 
-    void readVertices(const PlyElement& element) {
-        if (!mesh_.positions.empty()) in_.fail("it has two lists of vertices");
+    template <class Real>
+    void readVertices(const PlyElement& element, MeshOf<Real>& mesh) {
+        if (!mesh.positions.empty()) in_.fail("it has two lists of vertices");
         std::array<bool, kPlyRoles + 1> has{};
         for (const PlyProperty& property : element.properties) has[static_cast<std::size_t>(property.role)] = true;
         const auto hasAll = [&has](PlyRole first, std::size_t count) {
@@ -267,9 +289,9 @@ class PlyReader {
         if (!hasAll(PlyRole::X, 3)) in_.fail("its vertices have no x, y and z");
         const bool hasNormals = hasAll(PlyRole::NormalX, 3), hasUvs = hasAll(PlyRole::U, 2);
         const auto expected = std::min(element.count, in_.size()); // whatever the header says
-        mesh_.positions.reserve(expected);
-        if (hasNormals) mesh_.normals.reserve(expected);
-        if (hasUvs) mesh_.uvs.reserve(expected);
+        mesh.positions.reserve(expected);
+        if (hasNormals) mesh.normals.reserve(expected);
+        if (hasUvs) mesh.uvs.reserve(expected);
         std::array<double, kPlyRoles + 1> values{};
         for (std::uint64_t i = 0; i < element.count; ++i) {
             for (const PlyProperty& property : element.properties) {
@@ -281,24 +303,24 @@ class PlyReader {
             for (std::size_t role = 0; role < kPlyRoles; ++role)
                 if (!(std::abs(values[role]) <= kLargest))
                     in_.fail("vertex " + std::to_string(i) + ": its numbers must be from -1e9 to 1e9");
-            mesh_.positions.emplace_back(values[0], values[1], values[2]);
-            if (hasNormals) mesh_.normals.emplace_back(values[3], values[4], values[5]);
-            if (hasUvs) mesh_.uvs.emplace_back(values[6], values[7]);
+            mesh.positions.emplace_back(values[0], values[1], values[2]);
+            if (hasNormals) mesh.normals.emplace_back(values[3], values[4], values[5]);
+            if (hasUvs) mesh.uvs.emplace_back(values[6], values[7]);
         }
     }
 
-    void readFaces(const PlyElement& element) {
-        mesh_.triangles.reserve(std::min(element.count, in_.size()));
+    void readFaces(const PlyElement& element, std::vector<glm::uvec3>& triangles) {
+        triangles.reserve(std::min(element.count, in_.size()));
         for (std::uint64_t i = 0; i < element.count; ++i)
             for (const PlyProperty& property : element.properties) {
                 if (property.isCorners)
-                    readCorners(property, i);
+                    readCorners(property, i, triangles);
                 else
                     skip(property);
             }
     }
 
-    void readCorners(const PlyProperty& property, std::uint64_t face) {
+    void readCorners(const PlyProperty& property, std::uint64_t face, std::vector<glm::uvec3>& triangles) {
         const std::uint64_t count = listCount(property);
         if (count < 3) in_.fail("face " + std::to_string(face) + ": must have 3 corners or more");
         glm::uvec3 corners(0);
@@ -308,7 +330,7 @@ class PlyReader {
                 in_.fail("face " + std::to_string(face) + ": has a vertex that is no index");
             corners[i == 0 ? 0 : i == 1 ? 1 : 2] = static_cast<std::uint32_t>(index);
             if (i < 2) continue;
-            mesh_.triangles.push_back(corners);
+            triangles.push_back(corners);
             corners[1] = corners[2];
         }
     }
@@ -319,14 +341,13 @@ class PlyReader {
     PbrtBudget& budget_;
     const PbrtPlace place_;
     std::vector<PlyElement> elements_;
-    MeshData mesh_;
     std::size_t emptyLines_ = 0;
     bool hasFormat_ = false;
 };
 
 } // namespace
 
-MeshData loadPbrtPly(const std::filesystem::path& path, PbrtBudget& budget) {
+std::variant<MeshData, FloatMeshData> loadPbrtPly(const std::filesystem::path& path, PbrtBudget& budget) {
     return PlyReader(path, budget).read();
 }
 

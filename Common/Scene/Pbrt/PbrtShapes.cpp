@@ -23,17 +23,25 @@ constexpr const char* kShapes = "sphere, disk, cylinder, trianglemesh, plymesh, 
 constexpr double kSmallestLength = 1 / kLargest;
 
 // The front of a triangle is where its normals point, where it has some.
-void faceNormals(MeshData& mesh) {
+template <class Real>
+void faceNormals(MeshOf<Real>& mesh) {
     if (mesh.normals.empty()) return;
     for (glm::uvec3& t : mesh.triangles) {
-        const glm::dvec3& a = mesh.positions[t.x];
-        const glm::dvec3 flat = glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
-        if (glm::dot(flat, mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z]) < 0) std::swap(t.y, t.z);
+        const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+        const glm::dvec3 flat = glm::cross(b - a, c - a);
+        const glm::dvec3 sum =
+            glm::dvec3(mesh.normals[t.x]) + glm::dvec3(mesh.normals[t.y]) + glm::dvec3(mesh.normals[t.z]);
+        if (glm::dot(flat, sum) < 0) std::swap(t.y, t.z);
     }
 }
 
 double maxAngle(const PbrtParameters& parameters) {
     return parameters.number("phimax", 360, 0, 360);
+}
+
+bool isLongMesh(const PbrtParameters& parameters) {
+    const auto isLong = [&](const char* name) { return parameters.isLong(name); };
+    return isLong("P") || isLong("N") || isLong("uv") || isLong("st");
 }
 
 struct AreaOf {
@@ -57,14 +65,17 @@ struct AreaOf {
         return glm::length(glm::cross(map.vector(quad.edgeU), map.vector(quad.edgeV)));
     }
     double operator()(const MeshDesc& mesh) const {
-        const auto* data = std::get_if<Boxed<MeshData>>(&mesh.source);
+        if (const auto* data = std::get_if<Boxed<MeshData>>(&mesh.source)) return areaOf(**data);
+        const auto* data = std::get_if<Boxed<FloatMeshData>>(&mesh.source);
+        return data ? areaOf(**data) : 0;
+    }
+    template <class Real>
+    double areaOf(const MeshOf<Real>& mesh) const {
         double area = 0;
-        if (data)
-            for (const glm::uvec3& t : (*data)->triangles) {
-                const glm::dvec3& a = (*data)->positions[t.x];
-                area += 0.5 * glm::length(glm::cross(map.vector((*data)->positions[t.y] - a),
-                                                     map.vector((*data)->positions[t.z] - a)));
-            }
+        for (const glm::uvec3& t : mesh.triangles) {
+            const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+            area += 0.5 * glm::length(glm::cross(map.vector(b - a), map.vector(c - a)));
+        }
         return area;
     }
     template <class Other>
@@ -85,8 +96,9 @@ PbrtShape PbrtShapes::make(const std::string& kind, const PbrtParameters& parame
         return shape;
     }
     if (kind == "disk") return disk(parameters, isReversed);
-    if (kind == "trianglemesh") return meshShape(triangles(parameters), isReversed);
-    if (kind == "plymesh") return meshShape(ofFile(parameters), isReversed);
+    if (kind == "trianglemesh" && isLongMesh(parameters)) return meshShape(triangles<float>(parameters), isReversed);
+    if (kind == "trianglemesh") return meshShape(triangles<double>(parameters), isReversed);
+    if (kind == "plymesh") return ofFile(parameters, isReversed);
     if (kind == "loopsubdiv") return meshShape(subdivided(parameters), isReversed);
     if (kind == "bilinearmesh") return patches(parameters, isReversed);
     if (kind != "curve") parameters.fail("the shape is unknown; known are " + std::string(kShapes));
@@ -130,11 +142,12 @@ PbrtShape PbrtShapes::cylinder(const PbrtParameters& parameters) {
 
 // ---- meshes --------------------------------------------------------------------------------------------------------
 
-PbrtShape PbrtShapes::meshShape(MeshData mesh, bool isReversed) {
+template <class Real>
+PbrtShape PbrtShapes::meshShape(MeshOf<Real> mesh, bool isReversed) {
     faceNormals(mesh);
     if (isReversed) {
         for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
-        for (glm::dvec3& normal : mesh.normals) normal = -normal;
+        for (auto& normal : mesh.normals) normal = -normal;
     }
     PbrtShape shape;
     shape.lights = mesh.triangles.size();
@@ -144,10 +157,11 @@ PbrtShape PbrtShapes::meshShape(MeshData mesh, bool isReversed) {
     return shape;
 }
 
-MeshData PbrtShapes::triangles(const PbrtParameters& parameters) {
+template <class Real>
+MeshOf<Real> PbrtShapes::triangles(const PbrtParameters& parameters) {
     parameters.find("faceIndices");
     parameters.find("S"); // tangents of curves of hair and brushed metal
-    MeshData mesh = pbrtVertices(parameters);
+    MeshOf<Real> mesh = pbrtVertices<Real>(parameters);
     const std::vector<std::uint32_t> indices = pbrtIndices(parameters, mesh.positions.size(), 3);
     mesh.triangles.resize(indices.size() / 3);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -159,7 +173,7 @@ PbrtShape PbrtShapes::patches(const PbrtParameters& parameters, bool isReversed)
     parameters.find("faceIndices");
     if (parameters.has("emissionfilename"))
         notices_.add("images that scale what bilinear patches emit are left out", parameters.place);
-    const MeshData vertices = pbrtVertices(parameters);
+    const MeshData vertices = pbrtVertices<double>(parameters);
     const std::vector<std::uint32_t> indices = pbrtIndices(parameters, vertices.positions.size(), 4);
     if (indices.size() == 4)
         if (const std::optional<QuadDesc> quad = pbrtQuad(vertices, indices)) {
@@ -181,7 +195,7 @@ MeshData PbrtShapes::subdivided(const PbrtParameters& parameters) {
     parameters.find("scheme");
     const int levels = parameters.integer("levels", 3);
     if (levels < 0 || levels > kMaxLevels) parameters.fail("\"levels\" must be from 0 to 10");
-    MeshData mesh = triangles(parameters);
+    MeshData mesh = triangles<double>(parameters);
     budget_.spend(mesh.triangles.size() << (2 * levels), parameters.place);
     mesh.normals.clear();
     mesh.uvs.clear();
@@ -190,14 +204,16 @@ MeshData PbrtShapes::subdivided(const PbrtParameters& parameters) {
     return mesh;
 }
 
-MeshData PbrtShapes::ofFile(const PbrtParameters& parameters) {
+PbrtShape PbrtShapes::ofFile(const PbrtParameters& parameters, bool isReversed) {
     const std::string name = parameters.string("filename", "");
     if (name.empty()) parameters.fail("\"string filename\" is missing");
     if (parameters.has("displacement")) {
         parameters.find("edgelength");
         notices_.add("displacement of meshes is left out", parameters.place);
     }
-    return loadPbrtPly(files_.existing(name, parameters.find("filename")->place), budget_);
+    auto mesh = loadPbrtPly(files_.existing(name, parameters.find("filename")->place), budget_);
+    const auto made = [&](auto& data) { return meshShape(std::move(data), isReversed); };
+    return std::visit(made, mesh);
 }
 
 double pbrtArea(const PbrtShape& shape, const Affine& toWorld) {

@@ -31,11 +31,13 @@ class PbrtShapes {
     PbrtShape sphere(const PbrtParameters& parameters);
     PbrtShape disk(const PbrtParameters& parameters, bool isReversed);
     PbrtShape cylinder(const PbrtParameters& parameters);
-    MeshData triangles(const PbrtParameters& parameters);
+    template <class Real>
+    MeshOf<Real> triangles(const PbrtParameters& parameters);
     PbrtShape patches(const PbrtParameters& parameters, bool isReversed);
     MeshData subdivided(const PbrtParameters& parameters);
-    MeshData ofFile(const PbrtParameters& parameters);
-    PbrtShape meshShape(MeshData mesh, bool isReversed);
+    PbrtShape ofFile(const PbrtParameters& parameters, bool isReversed);
+    template <class Real>
+    PbrtShape meshShape(MeshOf<Real> mesh, bool isReversed);
 
     PbrtFiles& files_;
     PbrtBudget& budget_;
