@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "Common/App/Interactive/FilmFiles.h"
+#include "Common/App/Session/SceneOutput.h"
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Paths.h"
@@ -15,6 +16,7 @@
 #include "Common/Gui/Panels/SavePaths.h"
 #include "Common/Gui/Widgets.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Scene/ModelFile.h"
 
 namespace rt::gui {
 
@@ -112,15 +114,26 @@ void Gui::frameAll() {
     camera.frame(0.5 * (lower + upper), 0.5 * glm::length(upper - lower), aspect);
 }
 
-// As --export-scene does, which reads the scene once more: what is rendered is no text any more.
 void Gui::exportScene() {
-    if (editor.document() != nullptr) return saveSceneAs(*this); // with what has been edited
     if (state.scene) browse(BrowseFor::Export);
+}
+
+// With what has been edited; a scene file is what is edited from then on. Else as --export-scene does, which reads the
+// scene once more: what is rendered is no text any more.
+void Gui::exportTo(const std::string& file) {
+    if (!app::isSceneOutput(file)) return fail(file + ": must be " + app::kSceneOutputs, app::ErrorSource::Save);
+    if (editor.document() == nullptr) return exporting.start(state.source, state.moment, assetsBelow, file);
+    if (!scene::isGltfFile(file)) return editor.save(file);
+    exporting.start(editor.document()->scene(), state.source, assetsBelow, file);
 }
 
 void Gui::followExport() {
     try {
-        if (const auto file = exporting.takeResult()) say("Saved " + *file);
+        const auto result = exporting.takeResult();
+        if (!result) return;
+        const std::vector<std::string>& notices = result->notices;
+        const std::string rest = notices.size() > 1 ? ", and " + std::to_string(notices.size() - 1) + " more" : "";
+        say("Saved " + result->file + (notices.empty() ? "" : "; " + notices.front() + rest));
     } catch (const std::exception& error) {
         fail(messageOf(error), app::ErrorSource::Save);
     }
@@ -249,7 +262,8 @@ void Gui::browse(BrowseFor what) {
                        true};
             break;
         case BrowseFor::Export:
-            request = {"Export the scene", "Export", {".json"}, saveFolder(settings.saveFolder), "scene.json", true};
+            request = {"Export the scene", "Export", {".json", ".glb", ".gltf"}, saveFolder(settings.saveFolder),
+                       "scene.json",       true};
             break;
         case BrowseFor::SaveScene:
             request = {"Save the scene", "Save", {".json"}, saveFolder(settings.saveFolder), "scene.json", true};
@@ -276,9 +290,8 @@ void Gui::take(const std::filesystem::path& file) {
                 settings.saveFolder = file.parent_path().string();
             return;
         case BrowseFor::Export:
-            return exporting.start(state.source, state.moment, assetsBelow, file.string());
         case BrowseFor::SaveScene:
-            return editor.save(file.string());
+            return exportTo(file.string());
         case BrowseFor::OpenMaterial:
             return openMaterials(*this, file.string());
         case BrowseFor::SaveMaterial:

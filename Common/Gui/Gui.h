@@ -134,9 +134,10 @@ struct Gui {
     std::string whyNotOther() const;                  // the other program cannot do the same; empty: it can
     void followOther();                               // starts it when it is its turn, and pins what it has rendered
     void cancelOther();
-    void hold();     // the picture, for comparison; or lets it go
-    void frameAll(); // turns no camera, but moves it until all of the scene is in sight
-    void exportScene();
+    void hold();                            // the picture, for comparison; or lets it go
+    void frameAll();                        // turns no camera, but moves it until all of the scene is in sight
+    void exportScene();                     // to a file that is asked for
+    void exportTo(const std::string& file); // a scene file or glTF, by its ending
     void followExport();
     void copyPose(); // of the camera, to the clipboard
     void pastePose();

@@ -59,6 +59,10 @@ std::size_t texelCount(std::span<const std::byte> bytes);
 // "ray-tracing") and an EXR (attribute of that name), and left out elsewhere.
 void writeImage(const std::filesystem::path& path, const ImageRows& image, const std::string& description = {});
 
+// Texels of 8 bits, sRGB-encoded, 3 channels or 4 with opacity, rows from the top, as a PNG in memory.
+std::vector<std::byte> toPng(std::uint32_t width, std::uint32_t height, std::uint32_t channels,
+                             const std::vector<std::uint8_t>& texels);
+
 // What writeImage was given as description; nothing where the file holds none. Throws InputError as readImage does.
 std::optional<std::string> readDescription(const std::filesystem::path& path);
 

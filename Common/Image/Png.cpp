@@ -4,9 +4,12 @@
 #include <new>
 #include <ostream>
 #include <png.h>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "Common/Image/Codecs.h"
+#include "Common/Image/ImageIo.h"
 #include "Common/Shared/Tonemap.h"
 
 namespace rt::image {
@@ -51,22 +54,23 @@ class PngWriter {
     PngWriter(const PngWriter&) = delete;
     PngWriter& operator=(const PngWriter&) = delete;
 
-    void begin(const ImageRows& rows, const std::string& description) {
+    void begin(std::uint32_t width, std::uint32_t height, std::uint32_t channels, const std::string& description) {
+        constexpr int kColorTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
+                                       PNG_COLOR_TYPE_RGB_ALPHA};
         png_text text{};
         text.compression = PNG_ITXT_COMPRESSION_NONE;
         text.key = const_cast<char*>(kDescriptionKey); // neither is written to
         text.text = const_cast<char*>(description.c_str());
         attempt([&] {
-            png_set_IHDR(png_, info_, rows.width, rows.height, 8,
-                         rows.channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+            png_set_IHDR(png_, info_, width, height, 8, kColorTypes[channels - 1], PNG_INTERLACE_NONE,
                          PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
             png_set_sRGB_gAMA_and_cHRM(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
             if (!description.empty()) png_set_text(png_, info_, &text, 1);
             png_write_info(png_, info_);
         });
     }
-    void write(const std::vector<std::uint8_t>& row) {
-        attempt([&] { png_write_row(png_, row.data()); });
+    void write(const std::uint8_t* row) {
+        attempt([&] { png_write_row(png_, row); });
     }
     void end() {
         attempt([&] { png_write_end(png_, nullptr); });
@@ -86,7 +90,7 @@ class PngWriter {
 
 void encodePng(const ImageRows& rows, std::ostream& out, const std::string& description) {
     PngWriter writer(out);
-    writer.begin(rows, description);
+    writer.begin(rows.width, rows.height, rows.channels, description);
     std::vector<float> linear(rows.rowValues());
     std::vector<std::uint8_t> encoded(rows.rowValues());
     for (std::uint32_t y = 0; y < rows.height; ++y) {
@@ -94,9 +98,21 @@ void encodePng(const ImageRows& rows, std::ostream& out, const std::string& desc
         std::transform(linear.begin(), linear.end(), encoded.begin(), [](float value) {
             return static_cast<std::uint8_t>(shared::srgbEncode(std::clamp(value, 0.0f, 1.0f)) * 255.0f + 0.5f);
         });
-        writer.write(encoded);
+        writer.write(encoded.data());
     }
     writer.end();
+}
+
+std::vector<std::byte> toPng(std::uint32_t width, std::uint32_t height, std::uint32_t channels,
+                             const std::vector<std::uint8_t>& texels) {
+    std::ostringstream out;
+    PngWriter writer(out);
+    writer.begin(width, height, channels, {});
+    for (std::uint32_t y = 0; y < height; ++y) writer.write(&texels[std::size_t{y} * width * channels]);
+    writer.end();
+    const std::string content = out.str();
+    const auto* bytes = reinterpret_cast<const std::byte*>(content.data());
+    return {bytes, bytes + content.size()};
 }
 
 } // namespace rt::image

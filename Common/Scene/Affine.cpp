@@ -59,6 +59,12 @@ std::optional<Affine> inverse(const Affine& map) {
     return Affine{linear, offset};
 }
 
+glm::dmat3 frameAround(const glm::dvec3& n) {
+    const double s = std::signbit(n.z) ? -1 : 1;
+    const double a = -1 / (s + n.z), b = n.x * n.y * a;
+    return {glm::dvec3(1 + s * n.x * n.x * a, s * b, -s * n.x), glm::dvec3(b, s + n.y * n.y * a, -n.y), n};
+}
+
 // Hestenes' one-sided variant of Jacobi's method: turns two columns at a time in their plane.
 glm::dmat3 orthogonalColumns(const glm::dmat3& a) {
     constexpr int kSweeps = 30; // it takes about five

@@ -37,6 +37,9 @@ inline Affine scaling(const glm::dvec3& factors) {
 // Nothing when the map is singular or not finite.
 std::optional<Affine> inverse(const Affine& map);
 
+// Columns: two directions across a third, of unit length, and that; the first two as shared::makeFrame() has them.
+glm::dmat3 frameAround(const glm::dvec3& n);
+
 // A Q with a rotation Q that puts the columns at right angles: the half axes of the ellipsoid that A makes of the unit
 // sphere.
 glm::dmat3 orthogonalColumns(const glm::dmat3& a);

@@ -27,6 +27,8 @@ constexpr double kFloorHalf = 40;  // from its middle to its edges
 constexpr double kFloorGap = 1e-3; // below the model, so that a flat one does not lie in it
 constexpr double kBoxDistance = 5; // from the middle of the model: beyond what framingCamera() sees
 
+constexpr const char* kStudio = "studio"; // the prototype
+
 struct SoftBox {
     const char* name;
     glm::dvec3 towards; // from the middle of the model
@@ -67,6 +69,17 @@ struct LightTest {
 
 bool isLight(const SceneDesc& scene, const ObjectDesc& object) {
     return !object.hidden && std::visit(LightTest{scene}, object.shape);
+}
+
+// `but`: a list of objects that does not count.
+bool anyIsLight(const SceneDesc& scene, const std::vector<ObjectDesc>* but) {
+    const auto hasLight = [&](const std::vector<ObjectDesc>& objects) {
+        const auto shines = [&scene](const ObjectDesc& object) { return isLight(scene, object); };
+        return &objects != but && std::any_of(objects.begin(), objects.end(), shines);
+    };
+    const auto& prototypes = scene.prototypes;
+    return hasLight(scene.objects) ||
+           std::any_of(prototypes.begin(), prototypes.end(), [&](const auto& named) { return hasLight(named.second); });
 }
 
 // The bounds of lists of objects, of each prototype once.
@@ -154,13 +167,7 @@ bool isSeenFromBelow(const SceneDesc& scene, double floor) {
 } // namespace
 
 bool bringsLight(const SceneDesc& scene) {
-    if (scene.background != Background(ConstantBackground{})) return true;
-    const auto anyIsLight = [&scene](const std::vector<ObjectDesc>& objects) {
-        return std::any_of(objects.begin(), objects.end(),
-                           [&scene](const ObjectDesc& object) { return isLight(scene, object); });
-    };
-    return anyIsLight(scene.objects) || std::any_of(scene.prototypes.begin(), scene.prototypes.end(),
-                                                    [&](const auto& named) { return anyIsLight(named.second); });
+    return scene.background != Background(ConstantBackground{}) || anyIsLight(scene, nullptr);
 }
 
 Bounds boundsOfMeshes(const SceneDesc& scene) {
@@ -189,13 +196,39 @@ void addStudio(SceneDesc& scene, const Bounds& bounds) {
         scene.materials[name].albedo = glm::dvec3(kHorizon / kFloorIrradiance);
         studio.push_back({floorQuad(place, name)});
     }
-    const std::string name = freeName(scene.prototypes, "studio");
+    const std::string name = freeName(scene.prototypes, kStudio);
     scene.prototypes[name] = std::move(studio);
     scene.objects.push_back({InstanceDesc{name, {}, {}}});
     scene.notices.insert(scene.notices.begin(),
                          "there is no light in the file: the model stands in a studio of soft "
                          "boxes, the prototype \"" +
                              name + "\"");
+}
+
+std::optional<std::size_t> studioOf(const SceneDesc& scene) {
+    SceneDesc usual;
+    usual.camera = scene.camera;
+    usual.cameras = scene.cameras;
+    addStudio(usual, boundsOfMeshes(scene));
+    const std::vector<ObjectDesc>& parts = usual.prototypes.at(kStudio);
+    const auto isUsual = [&](const std::vector<ObjectDesc>& studio) {
+        return std::equal(studio.begin(), studio.end(), parts.begin(), parts.end(), [&](const auto& a, const auto& b) {
+            const auto* quad = std::get_if<QuadDesc>(&a.shape);
+            const auto found = quad == nullptr ? scene.materials.end() : scene.materials.find(quad->material);
+            return found != scene.materials.end() && !a.hidden &&
+                   found->second == usual.materials.at(std::get<QuadDesc>(b.shape).material);
+        });
+    };
+    if (scene.background != usual.background) return std::nullopt;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const auto* instance = std::get_if<InstanceDesc>(&scene.objects[i].shape);
+        if (instance == nullptr || scene.objects[i].hidden || *instance != InstanceDesc{instance->prototype, {}, {}})
+            continue;
+        const auto prototype = scene.prototypes.find(instance->prototype);
+        if (prototype != scene.prototypes.end() && isUsual(prototype->second) && !anyIsLight(scene, &prototype->second))
+            return i;
+    }
+    return std::nullopt;
 }
 
 } // namespace rt::scene

@@ -1,5 +1,8 @@
 // What lights a model that brings no light: soft boxes and a floor before a grey sky, all in proportion to the model.
 #pragma once
+#include <cstddef>
+#include <optional>
+
 #include "Common/Scene/Compiler/Bounds.h"
 #include "Common/Scene/SceneDesc.h"
 
@@ -18,5 +21,9 @@ Bounds boundsOfMeshes(const SceneDesc& scene);
 // between the model and a camera of the scene that looks up from below. With a notice.
 void addStudioIfUnlit(SceneDesc& scene, const Bounds& bounds);
 void addStudio(SceneDesc& scene, const Bounds& bounds); // in any case
+
+// Which of the objects is such a studio, of materials that nobody has changed, where nothing else brings light: a
+// reader of the model puts it there again.
+std::optional<std::size_t> studioOf(const SceneDesc& scene);
 
 } // namespace rt::scene

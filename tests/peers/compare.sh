@@ -28,8 +28,8 @@ source_of() {
         monkey) echo "$folder/$1/cycles/monkey.gltf" && return ;;
         spheres) id=one-weekend-final ;;
     esac
-    "$bin/ray-tracing-cpu" --no-config --scene "$id" --export-scene "$file.rough" >/dev/null
-    sed 's/"fuzz": [0-9.e-]*/"fuzz": 0/' "$file.rough" >"$file"
+    "$bin/ray-tracing-cpu" --no-config --scene "$id" --export-scene "$file.rough.json" >/dev/null
+    sed 's/"fuzz": [0-9.e-]*/"fuzz": 0/' "$file.rough.json" >"$file"
     echo "$file"
 }
 

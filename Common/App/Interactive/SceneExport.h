@@ -1,11 +1,14 @@
-// Writes a scene as a scene file while a window goes on: as --export-scene does, the scene is read once more.
+// Writes a scene to a file while a window goes on.
 #pragma once
 #include <atomic>
+#include <functional>
 #include <future>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "Common/Scene/Moment.h"
+#include "Common/Scene/SceneDesc.h"
 
 namespace rt::app {
 
@@ -16,15 +19,27 @@ class SceneExport {
     SceneExport(const SceneExport&) = delete;
     SceneExport& operator=(const SceneExport&) = delete;
 
-    // After the one before, if that is not done yet. `assetsBelow`: as --assets-below; `moment`: as --time.
+    // As --export-scene, which reads the scene once more. After the one before, if that is not done yet.
+    // `assetsBelow`: as --assets-below; `moment`: as --time.
     void start(const std::string& source, const scene::Moment& moment, const std::string& assetsBelow,
                const std::string& file);
-    // Once, when it is done: the file. Throws what has kept it from being written.
-    std::optional<std::string> takeResult();
+    // Likewise one that is at hand, whatever has become of its source.
+    void start(scene::SceneDesc scene, const std::string& source, const std::string& assetsBelow,
+               const std::string& file);
+
+    struct Result {
+        std::string file;
+        std::vector<std::string> notices; // of writing it
+    };
+    // Once, when it is done. Throws what has kept the file from being written.
+    std::optional<Result> takeResult();
 
   private:
+    void run(std::function<scene::SceneDesc()> load, const std::string& source, const std::string& assetsBelow,
+             const std::string& file);
+
     std::atomic<bool> callOff_{false};
-    std::future<std::string> file_;
+    std::future<Result> result_;
 };
 
 } // namespace rt::app

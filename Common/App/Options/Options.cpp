@@ -7,6 +7,7 @@
 #include "Common/App/Options/FlagSet.h"
 #include "Common/App/Options/MotionFlags.h"
 #include "Common/App/Session/FeatureNames.h"
+#include "Common/App/Session/SceneOutput.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/Film.h"
@@ -66,7 +67,7 @@ void addScene(FlagSet& flags, ParsedFlags& parsed) {
     flags.addFile("--assets-below", "DIR", options.assetsBelow, "no file of the scene may lie elsewhere");
     flags.addSwitch("--list-scenes", parsed.listScenes, "print ids and titles and exit")->configurable(false);
     flags.addSwitch("--json", options.json, "with --list-scenes: as JSON")->configurable(false);
-    flags.addFile("--export-scene", "F.json", options.exportFile, "write the scene as a scene file and exit")
+    flags.addFile("--export-scene", "F.json|.glb|.gltf", options.exportFile, "write the scene as a file and exit")
         ->configurable(false);
     flags.addChoice("--one-sided-lights", kOnOff, options.oneSidedLights, "lights emit from their front face only");
 }
@@ -245,7 +246,10 @@ void settleCommand(const FlagSet& flags, ParsedFlags& parsed) {
     if (options.json && !parsed.listScenes) throw UsageError("--json: only with --list-scenes");
     if (parsed.listScenes && !options.exportFile.empty()) throw UsageError("--export-scene: contradicts --list-scenes");
     if (parsed.listScenes) options.command = Command::ListScenes;
-    if (!options.exportFile.empty()) options.command = Command::ExportScene;
+    if (!options.exportFile.empty()) {
+        if (!isSceneOutput(options.exportFile)) refuseValue("--export-scene", options.exportFile, kSceneOutputs);
+        options.command = Command::ExportScene;
+    }
     if (parsed.listDevices) options.command = Command::ListDevices;
     if (options.command != Command::Render) return;
     if (parsed.headless && parsed.window) throw UsageError("--window: contradicts --headless");

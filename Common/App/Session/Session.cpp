@@ -19,13 +19,13 @@
 #include "Common/App/Session/Interrupt.h"
 #include "Common/App/Session/Outputs.h"
 #include "Common/App/Session/RenderJob.h"
+#include "Common/App/Session/SceneOutput.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/App/Session/Statistics.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/ReadFile.h"
 #include "Common/Render/FilmRun.h"
 #include "Common/Render/Progress.h"
-#include "Common/Scene/Json/SceneJson.h"
 
 namespace rt::app {
 namespace {
@@ -97,7 +97,7 @@ void exportScene(const Options& options) {
     scene::SceneDesc scene = loadScene(options.scene, options.moment);
     if (!options.camera.empty()) scene.camera = cameraOf(options.camera, scene);
     for (const std::string& notice : scene.notices) logWarning(scene.id + ": " + notice);
-    writeText(options.exportFile, scene::toJson(scene));
+    for (const std::string& notice : writeScene(options.exportFile, scene)) logWarning(scene.id + ": " + notice);
 }
 
 // One after the other; of several ranks each has its share. An interrupted one ends the sequence.

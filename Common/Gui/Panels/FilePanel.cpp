@@ -32,7 +32,7 @@ void drawFilePanel(Gui& gui) {
     const float width = (ImGui::GetContentRegionAvail().x - space) / 2;
     if (button("Open a scene", "A scene file or a model (Ctrl+O)", true, width)) gui.browse(BrowseFor::Scene);
     ImGui::SameLine(0, space);
-    if (button("Export the scene", "As a scene file (JSON), as --export-scene does",
+    if (button("Export the scene", "As a scene file (.json) or glTF (.glb, .gltf)",
                {gui.state.scene != nullptr, "there is no scene yet"}, width))
         gui.exportScene();
     drawRecent(gui);

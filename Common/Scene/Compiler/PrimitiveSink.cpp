@@ -36,13 +36,6 @@ bool isInvertible(const shared::Light& light) {
     return true;
 }
 
-// Columns: two directions across a third, of unit length, and that; the first two as shared::makeFrame() has them.
-glm::dmat3 frameAround(const glm::dvec3& n) {
-    const double s = std::signbit(n.z) ? -1 : 1;
-    const double a = -1 / (s + n.z), b = n.x * n.y * a;
-    return {glm::dvec3(1 + s * n.x * n.x * a, s * b, -s * n.x), glm::dvec3(b, s + n.y * n.y * a, -n.y), n};
-}
-
 // The factor by which a map scales a sphere, when the image is a sphere again; `isOriented`: its texture shows a
 // rotation.
 std::optional<double> sphereScale(const Affine& map, bool isOriented) {

@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 
+#include "Common/Scene/Gltf/GltfExtras.h"
 #include "Common/Scene/Gltf/GltfValues.h"
 #include "Common/Scene/Json/JsonNode.h"
 
@@ -42,6 +43,12 @@ MaterialDesc principled() {
     material.kind = MaterialKind::Principled;
     material.sides = Sides::Both;
     return material;
+}
+
+// As files say that we have written.
+bool emitsFromFront(const tinygltf::Material& source) {
+    const tinygltf::Value* sides = member(source.extras, kGltfEmittingSides);
+    return sides != nullptr && sides->IsString() && sides->Get<std::string>() == kGltfFront;
 }
 
 } // namespace
@@ -100,6 +107,7 @@ MaterialDesc GltfMaterials::lit(const tinygltf::Material& source) {
     material.emission = colorOf(source.emissiveFactor, 0);
     if (const auto* strength = extension(source.extensions, "KHR_materials_emissive_strength"))
         material.emission = glm::clamp(material.emission * numberOf(*strength, "emissiveStrength", 1), 0.0, kLargest);
+    if (emitsFromFront(source)) material.sides = Sides::Front;
     if (material.emission != glm::dvec3(0))
         material.emissionTexture = textures_.texture(GltfSlot(source.emissiveTexture), ColorSpace::Srgb, glm::dvec3(1));
     if (const auto* coat = extension(source.extensions, "KHR_materials_clearcoat")) addClearcoat(*coat, p);

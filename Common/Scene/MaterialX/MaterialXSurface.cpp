@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "Common/Scene/IsAlways.h"
 #include "Common/Scene/Json/JsonNode.h"
 #include "Common/Scene/MaterialX/MaterialXValues.h"
 
@@ -15,14 +16,6 @@ namespace rt::scene {
 namespace {
 
 const glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722); // of Rec. 709
-
-bool isAlways(const NumberOrTexture& number, double value) {
-    return number.texture.empty() && number.factor == value;
-}
-bool isAlways(const ColorOrTexture& color, double value) {
-    const auto* constant = std::get_if<glm::dvec3>(&color);
-    return constant != nullptr && *constant == glm::dvec3(value);
-}
 
 // What is no more than a simpler kind can be is of that kind, which renders quicker.
 void simplify(MaterialDesc& material) {
