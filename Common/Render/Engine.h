@@ -84,7 +84,6 @@ struct ShutterFigures {
     double open = 0, close = 0; // seconds of the animation
     std::uint32_t poses = 0;    // of the scene that samples were taken of, since the engine was made
     double poseSeconds = 0;     // that posing it has taken
-    std::uint64_t endsHash = 0; // of the scene when the shutter opens and when it closes
 };
 
 struct EngineReport {
@@ -221,6 +220,9 @@ struct Engine {
     // engine's device. None where there is no such device, or it failed.
     virtual std::optional<DenoisedPicture> denoiseWhole(const image::DenoiseInput& halves, bool details);
     virtual EngineReport report() const = 0;
+    // What tells the motion of a picture from others, which may take as long as two poses of the scene; 0: it is of one
+    // instant. Throws what posing throws.
+    virtual std::uint64_t motionHash() { return 0; }
 };
 
 } // namespace rt::app

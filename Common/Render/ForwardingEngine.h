@@ -46,6 +46,7 @@ class ForwardingEngine : public Engine {
         return engine_->denoiseWhole(halves, details);
     }
     EngineReport report() const override { return engine_->report(); }
+    std::uint64_t motionHash() override { return engine_->motionHash(); }
 
   protected:
     std::unique_ptr<Engine> engine_; // set before anything is called

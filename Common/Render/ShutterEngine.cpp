@@ -15,6 +15,7 @@
 #include "Common/Render/PictureDenoiser.h"
 #include "Common/Render/RenderParams.h"
 #include "Common/Render/Stopwatch.h"
+#include "Common/Scene/FollowedCamera.h"
 #include "Common/Shared/Base/Random.h"
 
 namespace rt::app {
@@ -90,13 +91,15 @@ class FeatureSums {
 // one replicate, and what it sees is one pose.
 class ShutterEngine final : public Engine {
   public:
-    ShutterEngine(std::unique_ptr<Engine> engine, double open, double close, PoseScene pose)
-        : engine_(std::move(engine)), open_(open), close_(close), pose_(std::move(pose)) {}
+    ShutterEngine(Engine& engine, double open, double close, PoseScene pose)
+        : engine_(&engine), open_(open), close_(close), pose_(std::move(pose)) {}
+    void own(std::unique_ptr<Engine> engine) { owned_ = std::move(engine); }
 
     // Only what it is like: what is rendered are poses.
     bool setScene(std::shared_ptr<const scene::CompiledScene> scene, const std::atomic<bool>* cancel) override {
         leavePose();
-        if (!hashEnds(cancel) || !engine_->setScene(std::move(scene), cancel)) return false;
+        if (!engine_->setScene(scene, cancel)) return false;
+        scene_ = std::move(scene);
         const EngineReport report = engine_->report();
         rates_ = report.rates;
         ratesAreOfBefore_ = report.ratesAreOfBefore;
@@ -105,6 +108,7 @@ class ShutterEngine final : public Engine {
 
     void reset(const scene::CameraDesc& camera, const RenderSettings& settings) override {
         leavePose();
+        camera_ = camera;
         settings_ = settings;
         film_ = Film(filmDesc(settings));
         tiles_ = image::allTiles(film_);
@@ -144,6 +148,7 @@ class ShutterEngine final : public Engine {
         return engine_->denoiseHalves(halves, details, threads);
     }
     EngineReport report() const override;
+    std::uint64_t motionHash() override;
 
   private:
     struct Task {
@@ -154,7 +159,6 @@ class ShutterEngine final : public Engine {
     RenderSettings settingsOf(std::uint32_t replicate) const;
     std::optional<Task> nextTask() const;
     bool begin(const Task& task, const std::atomic<bool>* cancel);
-    bool hashEnds(const std::atomic<bool>* cancel);
     std::shared_ptr<const scene::CompiledScene> poseAt(double share, const std::atomic<bool>* cancel) const;
     bool setPose(double share, const std::atomic<bool>* cancel);
     Film replicateFilm(std::uint32_t replicate) const;
@@ -170,9 +174,12 @@ class ShutterEngine final : public Engine {
         status_.samplesTotal = status_.samplesDone + image::missingSamples(film_, tiles_, limit_);
     }
 
-    const std::unique_ptr<Engine> engine_;
+    std::unique_ptr<Engine> owned_; // null: it is somebody else's
+    Engine* const engine_;
     const double open_, close_; // seconds
     const PoseScene pose_;
+    std::shared_ptr<const scene::CompiledScene> scene_; // what camera_ is of
+    scene::CameraDesc camera_;
     RenderSettings settings_;
     Film film_; // of all replicates; behind the engine's by what that has rendered since collect()
     image::TileList tiles_;
@@ -187,7 +194,7 @@ class ShutterEngine final : public Engine {
     shared::Features features_;
     std::vector<EngineRate> rates_; // by which an engine was chosen for the scene
     bool ratesAreOfBefore_ = false;
-    std::uint64_t endsHash_ = 0;
+    std::optional<std::uint64_t> motionHash_; // once it was asked for
     std::uint32_t poses_ = 0;
     double poseSeconds_ = 0;
 };
@@ -227,15 +234,17 @@ std::shared_ptr<const scene::CompiledScene> ShutterEngine::poseAt(double share, 
     }
 }
 
-// Tells animations apart that pass through the same pose. False: cancelled.
-bool ShutterEngine::hashEnds(const std::atomic<bool>* cancel) {
-    endsHash_ = kHashStart;
-    for (const double share : {0.0, 1.0}) {
-        const auto scene = poseAt(share, cancel);
-        if (!scene) return false;
-        endsHash_ = hashBytes(std::as_bytes(std::span(&scene->hash, 1)), endsHash_);
+// Of both ends, so that animations are told apart that pass through the same pose.
+std::uint64_t ShutterEngine::motionHash() {
+    if (motionHash_) return *motionHash_;
+    const Interruptible whole(nullptr); // what was interrupted is kept by it
+    std::uint64_t hash = kHashStart;
+    for (const double seconds : {open_, close_}) {
+        const auto scene = pose_(seconds);
+        hash = hashBytes(std::as_bytes(std::span(&scene->hash, 1)), hash);
     }
-    return true;
+    motionHash_ = hash;
+    return hash;
 }
 
 // False: cancelled, and nothing is in progress.
@@ -251,7 +260,7 @@ bool ShutterEngine::setPose(double share, const std::atomic<bool>* cancel) {
 
 bool ShutterEngine::begin(const Task& task, const std::atomic<bool>* cancel) {
     if (!setPose(timeOfPose(settings_.seed, task.replicate, task.pose), cancel)) return false;
-    engine_->reset(posed_->camera, settingsOf(task.replicate));
+    engine_->reset(scene::followedCamera(camera_, *scene_, *posed_), settingsOf(task.replicate));
     Film film = replicateFilm(task.replicate);
     doneInTask_ = image::totalSamples(film, tiles_);
     if (doneInTask_ > 0) engine_->restore(std::move(film));
@@ -311,7 +320,7 @@ AovImages ShutterEngine::renderAovs(const AovRequest& request, std::uint32_t sam
         setPose((p + jitter) / poses, nullptr);
         RenderSettings settings = settingsOf(0);
         settings.seed = random.y; // as each pose has few samples of a pixel, at other places of it
-        engine_->reset(posed_->camera, settings);
+        engine_->reset(scene::followedCamera(camera_, *scene_, *posed_), settings);
         sums.add(engine_->renderAovs(request, std::max(samples / poses, 1u)));
     }
     return std::move(sums).mean();
@@ -329,7 +338,7 @@ EngineReport ShutterEngine::report() const {
     report.rates = rates_;
     report.ratesAreOfBefore = ratesAreOfBefore_;
     report.deviceBytes += film_.bytes();
-    report.shutter = ShutterFigures{open_, close_, poses_, poseSeconds_, endsHash_};
+    report.shutter = ShutterFigures{open_, close_, poses_, poseSeconds_};
     return report;
 }
 
@@ -346,8 +355,14 @@ double timeOfPose(std::uint32_t seed, std::uint32_t replicate, const PoseOfSampl
     return shared::sobolSample(key, pose.pose, shared::kDimensionTime).x * 0x1p-32;
 }
 
+std::unique_ptr<Engine> makeShutterEngine(Engine& engine, double open, double close, PoseScene pose) {
+    return std::make_unique<ShutterEngine>(engine, open, close, std::move(pose));
+}
+
 std::unique_ptr<Engine> makeShutterEngine(std::unique_ptr<Engine> engine, double open, double close, PoseScene pose) {
-    return std::make_unique<ShutterEngine>(std::move(engine), open, close, std::move(pose));
+    auto shutter = std::make_unique<ShutterEngine>(*engine, open, close, std::move(pose));
+    shutter->own(std::move(engine));
+    return shutter;
 }
 
 } // namespace rt::app

@@ -1,5 +1,4 @@
-// A value that lies elsewhere, as std::indirect of C++26: one that is much larger than what else may stand in its
-// place.
+// A value that lies elsewhere: one that is much larger than what else may stand in its place. Copies share it.
 #pragma once
 #include <memory>
 #include <utility>
@@ -9,21 +8,16 @@ namespace rt::scene {
 template <class T>
 class Boxed {
   public:
-    Boxed(T value) : value_(std::make_unique<T>(std::move(value))) {}
-    Boxed(const Boxed& other) : Boxed(*other) {}
-    Boxed(Boxed&&) noexcept = default; // leaves nothing behind
-    Boxed& operator=(Boxed other) noexcept {
-        value_ = std::move(other.value_);
-        return *this;
-    }
+    Boxed(T value) : value_(std::make_shared<T>(std::move(value))) {}
 
-    T& operator*() { return *value_; }
     const T& operator*() const { return *value_; }
     const T* operator->() const { return value_.get(); }
-    bool operator==(const Boxed& other) const { return *value_ == *other.value_; }
+    // Where no copy shares it, so that nobody sees it change; null elsewhere.
+    T* own() { return value_.use_count() == 1 ? value_.get() : nullptr; }
+    bool operator==(const Boxed& other) const { return value_ == other.value_ || *value_ == *other.value_; }
 
   private:
-    std::unique_ptr<T> value_;
+    std::shared_ptr<T> value_;
 };
 
 } // namespace rt::scene

@@ -31,6 +31,7 @@ struct CompiledScene : shared::SceneArraysOf<std::vector> {
     glm::dvec3 origin{0.0};                    // globals.origin before rounding
     glm::dvec3 lower{0.0}, upper{0.0};         // bounds of all that there is, in authored units
     RenderDefaults defaults;
+    Motion motion;
     Origins origins;                        // of its primitives, for editors
     std::vector<std::string> materialNames; // of each material, as the scene or its model has it
     std::vector<std::string> notices;       // one line each: dropped primitives, stand-ins for missing assets

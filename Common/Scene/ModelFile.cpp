@@ -15,7 +15,7 @@ namespace {
 using LoadModel = SceneDesc (*)(const std::filesystem::path&, const Moment&);
 
 SceneDesc loadAnimatedModel(const std::filesystem::path& path, const Moment& moment) {
-    return AnimatedModel(path, moment).at(moment.time);
+    return AnimatedModel(path).at(moment);
 }
 
 SceneDesc loadObjModel(const std::filesystem::path& path, const Moment& moment) {
@@ -61,16 +61,15 @@ SceneDesc loadModelFile(const std::filesystem::path& path, const Moment& moment)
     return modelLoaders().at(kindOfFile(path))(path, moment);
 }
 
-AnimatedModel::AnimatedModel(const std::filesystem::path& path, Moment moment)
-    : file_(path), moment_(std::move(moment)) {}
-
-AnimatedModel::Start AnimatedModel::startOf(const SceneDesc& scene) {
-    return {scene.camera, boundsOfMeshes(scene), bringsLight(scene)};
+AnimatedModel::Start AnimatedModel::startOf(const SceneDesc& scene, const std::string& animation) {
+    return {animation, scene.camera, boundsOfMeshes(scene), bringsLight(scene)};
 }
 
-SceneDesc AnimatedModel::at(double seconds) {
-    SceneDesc scene = file_.at({moment_.animation, seconds, moment_.isAsked});
-    if (!start_) start_ = seconds == 0 ? startOf(scene) : startOf(file_.at({moment_.animation, 0}));
+SceneDesc AnimatedModel::at(const Moment& moment) {
+    const bool isKnown = start_ && start_->animation == moment.animation;
+    if (!isKnown && moment.time != 0) start_ = startOf(file_.at({moment.animation}), moment.animation);
+    SceneDesc scene = file_.at(moment);
+    if (!isKnown && moment.time == 0) start_ = startOf(scene, moment.animation);
     if (scene.cameras.empty()) scene.camera = start_->camera;
     if (!start_->bringsLight) addStudio(scene, start_->bounds);
     return scene;

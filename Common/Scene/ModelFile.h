@@ -22,27 +22,26 @@ SceneDesc loadModelFile(const std::filesystem::path& path, const Moment& moment)
 
 bool isGltfFile(const std::filesystem::path& path); // by its ending
 
-// A glTF file's scene at any time of an animation; it is read once. What surrounds it follows from its start, and stays
-// where it is while the model moves: the studio, if there is one, and the view where the file has no camera. Throws
-// what loadModelFile() throws.
+// A glTF file's scene at any time of its animations; it is read once. What surrounds it follows from the start of the
+// animation, and stays where it is while the model moves: the studio, if there is one, and the view where the file has
+// no camera. Throws what loadModelFile() throws.
 class AnimatedModel {
   public:
-    // Of the moment all but its time.
-    AnimatedModel(const std::filesystem::path& path, Moment moment);
+    explicit AnimatedModel(const std::filesystem::path& path) : file_(path) {}
     bool isAnimated() const { return file_.isAnimated(); }
-    SceneDesc at(double seconds);
+    SceneDesc at(const Moment& moment);
 
   private:
     struct Start {
+        std::string animation;
         CameraDesc camera;
         Bounds bounds;
-        bool bringsLight = false;
+        bool bringsLight;
     };
-    static Start startOf(const SceneDesc& scene);
+    static Start startOf(const SceneDesc& scene, const std::string& animation);
 
-    const GltfScene file_;
-    const Moment moment_;
-    std::optional<Start> start_; // once a pose was asked for
+    GltfScene file_;
+    std::optional<Start> start_; // of the animation that was asked for last
 };
 
 } // namespace rt::scene

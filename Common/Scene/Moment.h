@@ -15,7 +15,28 @@ struct Moment {
     std::string animation = {}; // by name; empty: the first
     double time = 0;            // seconds
     bool isAsked = false;       // somebody has said so, be it the start of the first one, and need not be told of it
-    friend bool operator==(const Moment& a, const Moment& b) { return a.animation == b.animation && a.time == b.time; }
+    bool isWhole = false; // it stands in place of a time that a scene file imports a model at, or comes after that
+    friend bool operator==(const Moment& a, const Moment& b) {
+        return a.animation == b.animation && a.time == b.time && a.isWhole == b.isWhole;
+    }
+};
+
+// Of a model that a scene file imports at a moment of its own, where another one is asked for.
+inline Moment momentOfImport(const Moment& own, Moment asked) {
+    const bool isOfOwn = asked.animation.empty() || asked.animation == own.animation;
+    if (!isOfOwn) return asked;
+    asked.animation = own.animation;
+    if (!asked.isWhole) asked.time += own.time;
+    return asked;
+}
+
+// What moves in a scene, and how far it has got.
+struct Motion {
+    std::vector<std::string> animations = {}; // by name; none: nothing moves
+    std::size_t chosen = 0;
+    double length = 0; // of the chosen one, in seconds
+    double time = 0;   // that the scene is posed at
+    bool operator==(const Motion&) const = default;
 };
 
 // While light is gathered: seconds relative to the moment, which may lie anywhere.

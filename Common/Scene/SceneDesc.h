@@ -15,6 +15,7 @@
 #include <glm/vec4.hpp>
 
 #include "Common/Scene/Boxed.h"
+#include "Common/Scene/Moment.h"
 #include "Common/Shared/Material/Materials.h"
 #include "Common/Shared/Material/PrincipledParameters.h"
 
@@ -362,6 +363,7 @@ struct SceneDesc {
     std::vector<TargetDesc> importanceTargets;
     RenderDefaults render;
     std::vector<std::string> notices; // of reading it, one line each; not part of a scene file
+    Motion motion;                    // of the model that it is or begins with; likewise
     bool operator==(const SceneDesc&) const = default;
 };
 

@@ -1,5 +1,6 @@
 // Cameras of glTF as those of a scene.
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,13 @@ class GltfCameras : public testing::Test {
         std::string all;
         for (const std::string& notice : scene.notices) all += notice + "\n";
         return all;
+    }
+    // From 0 to 1 s, two values one after the other.
+    void animate(int node, const char* path, const std::vector<float>& values) {
+        const json sampler = {{"input", gltf.addAccessor(std::vector<float>{0, 1}, "SCALAR")},
+                              {"output", gltf.addAccessor(values, "VEC3")}};
+        gltf.add("animations", {{"samplers", {sampler}},
+                                {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", path}}}}}}});
     }
     static json lens() { return {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}; }
 
@@ -71,6 +79,39 @@ TEST_F(GltfCameras, OrthographicOnes) {
     }
     gltf.json["cameras"][0]["orthographic"]["ymag"] = 0;
     EXPECT_THROW(load(), InputError);
+}
+
+// What it looks at does not move with what an animation moves.
+TEST_F(GltfCameras, OfAnAnimationKeepTheDistanceOfItsStart) {
+    gltf.json["cameras"] = {
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 20}, {"znear", 1}}}}};
+    gltf.addNode({{"camera", 0}, {"translation", {0, 0, 8}}});
+    animate(0, "translation", {0, 0, 0, 0, 0, -100});
+    const std::filesystem::path file = gltf.save(folder / "a.glb");
+    EXPECT_EQ(loadGltfScene(file, {"", 1}).camera, loadGltfScene(file).camera);
+}
+
+// Of one that is scaled to nothing the view of the start is left, or nothing at all; a light is left out.
+TEST_F(GltfCameras, WithoutADirectionAreLeftOutWithANotice) {
+    gltf.add("cameras", lens());
+    gltf.add("cameras", lens());
+    gltf.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    gltf.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}}};
+    const json light = {{"KHR_lights_punctual", {{"light", 0}}}};
+    gltf.addNode({{"camera", 0}, {"name", "a"}, {"translation", {0, 0, 4}}, {"extensions", light}});
+    gltf.addNode({{"camera", 1}, {"name", "b"}, {"scale", {0, 0, 0}}});
+    animate(1, "scale", {1, 1, 1, 0, 0, 0});
+    const std::filesystem::path file = gltf.save(folder / "a.glb");
+    const SceneDesc start = loadGltfScene(file);
+    EXPECT_EQ(start.cameras.size(), 1u);
+    EXPECT_EQ(start.objects.size(), 2u);
+    scene = loadGltfScene(file, {"", 1});
+    EXPECT_EQ(scene.objects.size(), 1u);
+    EXPECT_EQ(scene.cameras, start.cameras);
+    EXPECT_EQ(scene.camera, start.camera);
+    EXPECT_NE(notices().find("camera \"a\" stays where it was at the start"), std::string::npos) << notices();
+    EXPECT_NE(notices().find("camera \"b\" is left out"), std::string::npos) << notices();
+    EXPECT_NE(notices().find("1 light is left out"), std::string::npos) << notices();
 }
 
 // Scaling is no part of a view: the direction is right, and the picture is not mirrored.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <fstream>
 #include <memory>
 #include <set>
 #include <string>
@@ -109,7 +110,7 @@ TEST_F(ShutterTest, FlagsThatMakeNoSenseAreRefused) {
     EXPECT_EQ(error<UsageError>(joined(blur, {"--export-scene", "a.json"})),
               "--shutter: only to render; --time poses a scene");
     std::ostringstream out;
-    EXPECT_THROW(parseOptions("ray-tracing-cpu", joined(blur, {"--no-config"}), out), UsageError); // a window
+    EXPECT_TRUE(parseOptions("ray-tracing-cpu", joined(blur, {"--no-config"}), out)->window);
     EXPECT_TRUE(parseOptions("ray-tracing-cpu", {"--no-config", "--shutter", "0,0"}, out)->window);
 }
 
@@ -229,6 +230,69 @@ TEST_F(ShutterTest, GoesWithASequence) {
               ExitCode::Done);
     EXPECT_EQ(bytesOfFile(path("a.0002.pfm")), bytesOfFile(path("b.pfm")));
     EXPECT_NE(bytesOfFile(path("a.0001.pfm")), bytesOfFile(path("b.pfm")));
+}
+
+// Poses are compiled for it alone, so only where one is kept.
+TEST_F(ShutterTest, WhatTellsMotionsApartIsMadeWhenItIsAskedFor) {
+    std::vector<double> posed;
+    const PoseScene poses = [&posed, scene = compile(SceneRequest{"cornell-box-lights"})](double seconds) {
+        posed.push_back(seconds);
+        return scene;
+    };
+    const auto engine = makeShutterEngine(cpu::makeCpuEngine({}), 0.25, 0.75, poses);
+    ASSERT_TRUE(engine->setScene(poses(0.5), nullptr));
+    EXPECT_EQ(posed, std::vector<double>{0.5});
+    const std::uint64_t hash = engine->motionHash();
+    EXPECT_EQ(posed, (std::vector<double>{0.5, 0.25, 0.75}));
+    EXPECT_EQ(engine->motionHash(), hash);
+    EXPECT_EQ(posed.size(), 3u);
+}
+
+// A light that shines at one end alone.
+TEST_F(ShutterTest, AllPosesMustHaveTheFeaturesThatAreForced) {
+    scene::MovingModel model;
+    const int lamp = model.addNode({{"mesh", model.addMesh(model.lamp(0.5f, 4))}, {"scale", {1, 1, 1}}});
+    model.addNode({{"mesh", model.addMesh(model.rectangle(1, 1, {{"emissiveFactor", {0, 0, 0}}}))}});
+    model.addCamera();
+    model.move(lamp, "scale", {0, 0, 0}, {1, 1, 1});
+    const std::string scene = model.save(path("a.gltf")).string();
+    const auto flags = [&](const char* time) {
+        return std::vector<std::string>{"--scene", scene, "--spp", "1", "--time", time, "-o", path("a.pfm")};
+    };
+    ASSERT_EQ(render(joined(flags("0"), {"--stats", path("stats.json")})), ExitCode::Done);
+    std::string names;
+    for (const auto& name : statistics().at("features")) names += (names.empty() ? "" : ",") + name.get<std::string>();
+    EXPECT_EQ(failure(joined(flags("0"), {"--features", names})), "no error");
+    EXPECT_NE(failure(joined(flags("0.5"), {"--features", names})).find("--features: the scene also needs"),
+              std::string::npos);
+    // The middle is before the lamp is there.
+    EXPECT_NE(failure(joined(flags("0"), {"--features", names, "--shutter", "-0.5,0.25"})).find("2 --features"),
+              std::string::npos);
+}
+
+// The model of a scene file moves, with what the file has changed of it; without the flags it stands at its time.
+TEST_F(ShutterTest, MovesWhatASceneFileImports) {
+    movingLamp();
+    std::ofstream(path("own.json")) << R"({"version": 1, "import": {"file": "lamp.glb", "time": 0.25}, "objects": []})";
+    const auto picture = [&](const std::string& name, const std::vector<std::string>& more) {
+        EXPECT_EQ(render(joined({"--scene", path(name), "--spp", "4", "-o", path("a.pfm")}, more)), ExitCode::Done);
+        return bytesOfFile(path("a.pfm"));
+    };
+    const std::string quarter = picture("lamp.glb", {"--time", "0.25"}), half = picture("lamp.glb", {"--time", "0.5"});
+    EXPECT_NE(quarter, half);
+    EXPECT_EQ(picture("own.json", {}), quarter);
+    EXPECT_EQ(picture("own.json", {"--time", "0.5"}), half);
+    EXPECT_EQ(picture("own.json", {"--time", "0"}), picture("lamp.glb", {}));
+    EXPECT_EQ(picture("own.json", {"--shutter", "0.25,0.25"}), half); // after its own time
+    EXPECT_EQ(picture("own.json", {"--shutter", "0,0.25"}),
+              picture("lamp.glb", {"--time", "0.25", "--shutter", "0,0.25"}));
+    EXPECT_EQ(render({"--scene", path("own.json"), "--spp", "4", "--frames", "0..1", "--frame-rate", "4", "-o",
+                      path("f.pfm")}),
+              ExitCode::Done);
+    EXPECT_EQ(bytesOfFile(path("f.0000.pfm")), quarter);
+    EXPECT_EQ(bytesOfFile(path("f.0001.pfm")), half);
+    EXPECT_EQ(failure({"--scene", path("own.json"), "--animation", "none", "-o", path("a.pfm")}).rfind("2 --anim", 0),
+              0u);
 }
 
 // Who has waited long enough gets what there is at once, though poses are still to come.

@@ -78,7 +78,7 @@ std::optional<LeftAutosave> readHeader(const std::string& line, const fs::path& 
     left.process = node.at("process").unsignedInteger();
     left.scene.source = node.at("scene").string();
     left.scene.title = node.at("title").string();
-    left.scene.moment = {node.at("animation").string(), node.at("time").number()};
+    left.scene.moment = {node.at("animation").string(), node.at("time").number(), false, node.has("whole")};
     if (node.has("bytes")) {
         using Duration = fs::file_time_type::duration;
         const nlohmann::json &written = node.at("written").value(), &bytes = node.at("bytes").value();
@@ -134,6 +134,7 @@ std::string autosaveHeader(const EditedScene& scene, const std::string& program)
                                    {"process", processId()},       {"scene", scene.source},
                                    {"title", scene.title},         {"animation", scene.moment.animation},
                                    {"time", scene.moment.time}};
+    if (scene.moment.isWhole) json["whole"] = true;
     if (scene.mark) {
         json["written"] = ticksOf(*scene.mark);
         json["bytes"] = scene.mark->bytes;

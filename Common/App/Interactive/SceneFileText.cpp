@@ -18,7 +18,9 @@ std::optional<scene::ImportDesc> importBehind(const fs::path& source, const scen
     std::error_code none;
     if (!fs::is_regular_file(source, none)) return std::nullopt; // a built-in scene
     if (scene::isModelFile(source)) return scene::ImportDesc{source, moment};
-    return scene::importOf(source);
+    std::optional<scene::ImportDesc> import = scene::importOf(source);
+    if (import) import->moment = momentOfImport(import->moment, moment);
+    return import;
 }
 
 } // namespace

@@ -41,7 +41,7 @@ void addMotion(FlagSet& flags, Options& options) {
         .add("--time", "T", "seconds; poses an animated scene",
              [&options](const std::string& flag, const std::string& text) {
                  options.moment.time = parseReal(flag, text, 0, kLongestTime, "seconds from 0 to 1e9");
-                 options.moment.isAsked = true;
+                 options.moment.isAsked = options.moment.isWhole = true;
              })
         ->default_str("0");
     flags.add("--animation", "NAME", "which of the scene's animations; the first",
@@ -84,7 +84,6 @@ void settleShutter(Options& options) {
     if (!options.shutter.isOpen()) return;
     if (options.isScripted) throw UsageError("--shutter: not in a script, whose scenes are of one instant");
     if (options.command != Command::Render) throw UsageError("--shutter: only to render; --time poses a scene");
-    if (options.window) throw UsageError("--shutter: not with a window; use --output or --headless");
     if (options.settings.adaptive)
         throw UsageError("--adaptive on: not with --shutter, whose poses take equally many samples of all pixels");
 }

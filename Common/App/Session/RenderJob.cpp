@@ -50,9 +50,19 @@ void noticeCutOff(std::uint32_t maxDepth, double share) {
 
 void RenderJob::load() {
     const Stopwatch watch;
-    const SceneRequest request{options_.scene, options_.oneSidedLights, options_.camera, options_.assetsBelow,
-                               options_.moment};
-    if (options_.shutter.isOpen()) poses_ = posesOf(request);
+    SceneRequest request{options_.scene, options_.oneSidedLights, options_.camera, options_.assetsBelow,
+                         options_.moment};
+    // Which the picture tells of, and the shutter is about.
+    if (options_.shutter.isOpen() || options_.moment.time != 0) request.moment = options_.moment = wholeMoment(request);
+    if (options_.shutter.isOpen()) {
+        poses_ = posesOf(request);
+        if (poses_ && options_.settings.features)
+            poses_ = [poses = poses_, settings = options_.settings](double seconds) { // of which any may need more
+                auto scene = poses(seconds);
+                checkFeatures(settings, *scene);
+                return scene;
+            };
+    }
     auto scene = poses_ ? poses_(options_.moment.time + options_.shutter.middle()) : compile(request);
     for (const std::string& notice : scene->notices) logWarning(scene->id + ": " + notice);
     if (options_.shutter.isOpen() && !poses_)
@@ -82,7 +92,7 @@ bool RenderJob::begin(std::unique_ptr<Engine> engine, const std::atomic<bool>& c
     if (!engine_->setScene(scene_, &cancel)) return false;
     image::Film kept;
     if (!options_.resume.empty()) {
-        kept = loadCheckpoint(options_.resume, options_.settings, *scene_, engine_->report());
+        kept = loadCheckpoint(options_.resume, options_.settings, *scene_, engine_->report(), engine_->motionHash());
         if (options_.wants(Aov::Variance) && options_.settings.replicates < 2 && !kept.desc().secondMoments)
             throw InputError(options_.resume +
                              ": second_moments is false in the checkpoint but --aov variance needs them");
@@ -179,7 +189,8 @@ void RenderJob::save(const std::string& file, const std::atomic<bool>& cancel) c
     const Interruptible interruptible(cancel);
     // Who looks on while a film grows asks how long it took; else equal films make equal files.
     const std::optional<double> seconds = options_.saveEvery ? std::optional(run_->seconds()) : std::nullopt;
-    saveCheckpoint(file, options_.settings, *scene_, engine_->report(), seconds, engine_->film());
+    saveCheckpoint(file, options_.settings, *scene_, engine_->report(), engine_->motionHash(), seconds,
+                   engine_->film());
 }
 
 // Samples that no output took must not be lost: they go to a new checkpoint in the first folder that takes it.

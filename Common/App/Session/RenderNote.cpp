@@ -8,6 +8,7 @@
 #include "Common/App/Session/FeatureNames.h"
 #include "Common/App/Session/ImagePart.h"
 #include "Common/Core/BuildInfo.h"
+#include "Common/Scene/ModelFile.h"
 
 namespace rt::app {
 namespace {
@@ -30,7 +31,9 @@ Json argumentList(const Options& options, const scene::CameraDesc& camera, const
     };
     add("--scene", options.scene);
     if (!options.moment.animation.empty()) add("--animation", options.moment.animation);
-    if (options.moment.time != 0) add("--time", exactly(options.moment.time));
+    const bool mayComeAfterAnImport = scene::kindOfFile(options.scene) == ".json";
+    if (options.moment.time != 0 || (options.moment.isWhole && mayComeAfterAnImport))
+        add("--time", exactly(options.moment.time));
     if (options.shutter.isOpen())
         add("--shutter", exactly(options.shutter.open) + "," + exactly(options.shutter.close));
     add("--camera", CameraController::toText(camera));

@@ -43,7 +43,8 @@ std::string shutterText(const EngineReport& report) {
 }
 
 // Everything that the samples of a pixel depend on, in the order in which a difference is best explained.
-Json identity(const RenderSettings& settings, const scene::CompiledScene& scene, const EngineReport& report) {
+Json identity(const RenderSettings& settings, const scene::CompiledScene& scene, const EngineReport& report,
+              std::uint64_t motionHash) {
     Json json = {{"engine", report.threads > 0 ? "cpu" : report.engine}, // threads and policies make no difference
                  {"width", settings.width},
                  {"height", settings.height},
@@ -57,7 +58,7 @@ Json identity(const RenderSettings& settings, const scene::CompiledScene& scene,
     json["shutter"] = shutterText(report);
     json["camera"] = toJson(scene.camera);
     json["scene_hash"] = hexText(scene.hash); // with a shutter, in its middle
-    json["motion_hash"] = report.shutter ? hexText(report.shutter->endsHash) : "off";
+    json["motion_hash"] = report.shutter ? hexText(motionHash) : "off";
     return json;
 }
 
@@ -90,8 +91,9 @@ void checkSpp(const std::string& file, std::uint32_t stored, const RenderSetting
 } // namespace
 
 void saveCheckpoint(const std::string& file, const RenderSettings& settings, const scene::CompiledScene& scene,
-                    const EngineReport& report, std::optional<double> seconds, const image::Film& film) {
-    nlohmann::json header = identity(settings, scene, report);
+                    const EngineReport& report, std::uint64_t motionHash, std::optional<double> seconds,
+                    const image::Film& film) {
+    nlohmann::json header = identity(settings, scene, report, motionHash);
     header["spp"] = settings.spp;
     header["spp_is_known"] = settings.sppIsKnown;
     header["kernel"] = report.kernel;
@@ -100,10 +102,10 @@ void saveCheckpoint(const std::string& file, const RenderSettings& settings, con
 }
 
 image::Film loadCheckpoint(const std::string& file, RenderSettings& settings, const scene::CompiledScene& scene,
-                           const EngineReport& report) try {
+                           const EngineReport& report, std::uint64_t motionHash) try {
     image::Checkpoint checkpoint = image::readCheckpoint(file);
     const nlohmann::json& stored = checkpoint.render;
-    checkIdentity(file, stored, identity(settings, scene, report));
+    checkIdentity(file, stored, identity(settings, scene, report, motionHash));
     const auto instructionSet = [](const std::string& kernel) { return kernel.substr(kernel.rfind('/') + 1); };
     if (report.threads > 0 && instructionSet(stored.at("kernel")) != instructionSet(report.kernel))
         logWarning(file + ": was made with another instruction set; the last bits may differ from those of one run");

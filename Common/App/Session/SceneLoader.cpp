@@ -17,7 +17,36 @@ bool areOfOneEdit(const SceneRequest& a, SceneRequest b) {
     return a == b;
 }
 
+// Whether both are of one scene that moves, at whatever moments.
+bool areOfOneMotion(const SceneRequest& a, SceneRequest b) {
+    if (a.poses == 0 || b.poses == 0 || a.edits > 0) return false;
+    b.poses = a.poses;
+    b.moment = a.moment;
+    b.shutter = a.shutter;
+    return a == b;
+}
+
+bool areOfOneScene(const SceneRequest& a, const SceneRequest& b) {
+    return areOfOneEdit(a, b) || areOfOneMotion(a, b);
+}
+
 } // namespace
+
+// The file is read again by whoever opens it; to be posed it is read once.
+void SceneLoader::loadPose(const SceneRequest& request, LoadedScene& result) {
+    if (request.poses == 0 || (posed_ && !posed_->isOf(request))) posed_.reset();
+    if (!posed_) posed_ = std::make_shared<PosedScene>(request);
+    result.mark = posed_->mark();
+    if (!posed_->isAnimated()) posed_.reset();
+    const bool isBlurred = posed_ && request.shutter.isOpen();
+    if (isBlurred) {
+        const scene::Moment moment = wholeMoment(request);
+        result.poses = posesOf(posed_, moment);
+        result.scene = result.poses(moment.time + request.shutter.middle());
+    } else {
+        result.scene = posed_ ? posed_->at(request.moment) : compile(request);
+    }
+}
 
 LoadedScene SceneLoader::load(const SceneRequest& request) {
     const Interruptible interruptible(callOff_);
@@ -26,7 +55,12 @@ LoadedScene SceneLoader::load(const SceneRequest& request) {
     result.mark = markOf(request.source);
     const Stopwatch watch;
     try {
-        result.scene = request.edits > 0 ? compileKept(*description_, request, &memory_) : compile(request);
+        if (request.edits > 0)
+            result.scene = compileKept(*description_, request, &memory_);
+        else if (request.poses > 0 || request.shutter.isOpen())
+            loadPose(request, result);
+        else
+            posed_.reset(), result.scene = compile(request);
     } catch (...) {
         result.failure = std::current_exception();
     }
@@ -90,6 +124,22 @@ std::uint64_t SceneLoader::edit(std::vector<scene::SceneEdit> edits, bool isGest
     return number;
 }
 
+std::uint64_t SceneLoader::pose(const scene::Moment& moment, const scene::Shutter& shutter) {
+    std::uint64_t number = 0;
+    {
+        const std::scoped_lock lock(mutex_);
+        SceneRequest request = last_;
+        request.moment = moment;
+        request.shutter = shutter;
+        request.edits = 0;
+        request.poses = number = ++poses_;
+        if (!(current_ && areOfOneMotion(*current_, request))) callOff_ = true;
+        ask(std::move(request));
+    }
+    wake_.notify_one();
+    return number;
+}
+
 void SceneLoader::rename(const std::string& source) {
     {
         const std::scoped_lock lock(mutex_);
@@ -113,14 +163,14 @@ void SceneLoader::giveUp() {
 
 bool SceneLoader::isWanted(const SceneRequest& request) const {
     const std::scoped_lock lock(mutex_);
-    return !isGivenUp_ && (request == last_ || areOfOneEdit(request, last_));
+    return !isGivenUp_ && (request == last_ || areOfOneScene(request, last_));
 }
 
 void SceneLoader::open(const std::string& source, std::optional<scene::Moment> moment) {
     const SceneRequest last = lastRequest();
     const bool isAgain = source == last.source; // the file has changed
     if (!moment) moment = isAgain ? last.moment : scene::Moment();
-    request({source, last.oneSidedLights, {}, last.assetsBelow, *moment});
+    request({source, last.oneSidedLights, {}, last.assetsBelow, *moment, isAgain ? last.shutter : scene::Shutter()});
 }
 
 bool SceneLoader::setOneSidedLights(bool on) {
@@ -176,8 +226,8 @@ void SceneLoader::work() {
         LoadedScene loaded = load(request);
         if (loaded.scene) doneEdits_.clear();
         lock.lock();
-        const bool isOfEarlierEdit = next_ && !callOff_ && loaded.scene && areOfOneEdit(request, *next_);
-        const bool wanted = !quit_ && !isGivenUp_ && (!next_ || isOfEarlierEdit);
+        const bool isEarlier = next_ && !callOff_ && loaded.scene && areOfOneScene(request, *next_);
+        const bool wanted = !quit_ && !isGivenUp_ && (!next_ || isEarlier);
         if (wanted) {
             handedOver_ = request;
             lock.unlock();

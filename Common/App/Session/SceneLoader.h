@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "Common/App/Session/FileFingerprint.h"
+#include "Common/App/Session/PosedScene.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Scene/Compiler/CompileMemory.h"
 #include "Common/Scene/Edit/SceneEdit.h"
@@ -24,6 +25,7 @@ struct LoadedScene {
     SceneRequest request;
     std::optional<FileFingerprint> mark; // of its file, as it was before it was read
     double seconds = 0;
+    PoseScene poses;         // at other times than the request's, where its shutter is open; none: nothing moves
     std::uint64_t reads = 0; // of scenes from their sources, this one included; counted by who shows them
 };
 
@@ -37,6 +39,10 @@ class SceneLoader {
     void request(SceneRequest request);
     // As what was requested last, but for the camera: the scene's own. Without a moment: at that of the same scene.
     void open(const std::string& source, std::optional<scene::Moment> moment = {});
+    // What is loaded or was requested last, at another moment: its file is not read again. One that has begun goes on
+    // and is handed over, or playing would never show anything; the last that has not begun counts. What is edited is
+    // forgotten. Returns SceneRequest::poses.
+    std::uint64_t pose(const scene::Moment& moment, const scene::Shutter& shutter);
     bool setOneSidedLights(bool on); // loads anew what was requested last; false: it is loaded so
     SceneRequest lastRequest() const;
     // What is loaded or has just been; the last request is then the one before that was handed over.
@@ -57,6 +63,7 @@ class SceneLoader {
 
   private:
     LoadedScene load(const SceneRequest& request);
+    void loadPose(const SceneRequest& request, LoadedScene& result);
     void ask(SceneRequest request);
     void forgetDescription();
     void work();
@@ -81,6 +88,8 @@ class SceneLoader {
     scene::CompileMemory memory_;
     std::vector<scene::SceneEdit> doneEdits_; // since the latest compilation that succeeded
     bool forgetsDescription_ = false;         // when the thread comes to it
+    std::uint64_t poses_ = 0;                 // of requests so far
+    std::shared_ptr<PosedScene> posed_;       // the thread's own; null: no other moment was wished of what is shown
     std::thread thread_;
 };
 

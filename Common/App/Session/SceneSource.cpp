@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "Common/App/Interactive/CameraController.h"
-#include "Common/App/Session/SceneImages.h"
+#include "Common/App/Session/PosedScene.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/Printable.h"
@@ -41,15 +41,14 @@ scene::CompileOptions optionsOf(const scene::SceneDesc& desc, const SceneRequest
     return options;
 }
 
-// Of the source, or of the assets' file of this name.
+} // namespace
+
 std::filesystem::path fileNamedBy(const std::string& source) {
     std::filesystem::path path(source);
     std::error_code none;
     if (path.is_relative() && !std::filesystem::exists(path, none)) path = findAsset("scenes" / path).value_or(path);
     return path;
 }
-
-} // namespace
 
 scene::SceneDesc loadScene(const std::string& source, const scene::Moment& moment) {
     const bool isSceneFile = scene::kindOfFile(source) == ".json";
@@ -59,10 +58,7 @@ scene::SceneDesc loadScene(const std::string& source, const scene::Moment& momen
         return scene;
     }
     const std::filesystem::path path = fileNamedBy(source);
-    if (!isSceneFile) return scene::loadModelFile(path, moment);
-    scene::SceneDesc scene = scene::loadSceneFile(path);
-    noticeStandstill(moment, scene.notices);
-    return scene;
+    return isSceneFile ? scene::loadSceneFile(path, moment) : scene::loadModelFile(path, moment);
 }
 
 std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights,
@@ -79,9 +75,11 @@ std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request)
 }
 
 std::shared_ptr<const scene::CompiledScene> compileKept(const scene::SceneDesc& desc, const SceneRequest& request,
-                                                        scene::CompileMemory* memory) {
+                                                        scene::CompileMemory* memory, const TexelLoader& loadTexels) {
     const ReadsBelow confined(request.assetsBelow, request.source);
-    return compileWith(desc, request.oneSidedLights, optionsOf(desc, request, memory));
+    scene::CompileOptions options = optionsOf(desc, request, memory);
+    options.loadTexels = loadTexels;
+    return compileWith(desc, request.oneSidedLights, options);
 }
 
 std::shared_ptr<const scene::CompiledScene> compile(scene::SceneDesc desc, const SceneRequest& request) {
@@ -93,20 +91,20 @@ std::shared_ptr<const scene::CompiledScene> compile(scene::SceneDesc desc, const
     return compiled;
 }
 
+scene::Moment wholeMoment(const SceneRequest& request) {
+    scene::Moment moment = request.moment;
+    if (!moment.isWhole && scene::kindOfFile(request.source) == ".json") {
+        const ReadsBelow confined(request.assetsBelow, request.source);
+        if (const auto import = scene::importOf(fileNamedBy(request.source)))
+            moment = momentOfImport(import->moment, moment);
+    }
+    moment.isWhole = true;
+    return moment;
+}
+
 PoseScene posesOf(const SceneRequest& request) {
-    if (!scene::isGltfFile(request.source)) return {};
-    const ReadsBelow confined(request.assetsBelow, request.source);
-    const auto model = std::make_shared<scene::AnimatedModel>(fileNamedBy(request.source), request.moment);
-    if (!model->isAnimated()) return {};
-    return [request, model, loadTexels = makeKeepingTexelLoader()](double seconds) {
-        const ReadsBelow readsBelow(request.assetsBelow, request.source);
-        const scene::SceneDesc desc = model->at(seconds);
-        scene::CompileOptions options;
-        options.installedMaps = true;
-        options.loadTexels = loadTexels;
-        if (!request.pose.empty()) options.camera = cameraOf(request.pose, desc);
-        return compileWith(desc, request.oneSidedLights, options);
-    };
+    auto scene = std::make_shared<PosedScene>(request);
+    return scene->isAnimated() ? posesOf(std::move(scene), request.moment) : PoseScene{};
 }
 
 scene::CameraDesc poseOf(const std::string& pose, const scene::CameraDesc& scenes) {

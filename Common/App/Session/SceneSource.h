@@ -1,9 +1,11 @@
 // From what --scene names to a scene.
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 
+#include "Common/App/Session/SceneImages.h"
 #include "Common/Render/ShutterEngine.h"
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Scene/Moment.h"
@@ -32,7 +34,9 @@ struct SceneRequest {
     std::string pose = {};        // or name of the camera, as --camera takes it; empty: the scene's own
     std::string assetsBelow = {}; // the folder that the scene's files must lie in; empty: anywhere
     scene::Moment moment = {};    // as --animation and --time say
+    scene::Shutter shutter = {};  // about that moment; for a window, see LoadedScene::poses
     std::uint64_t edits = 0;      // grows with what has been edited since; 0: the scene is as the source has it
+    std::uint64_t poses = 0;      // grows with each moment that was wished since it was opened; 0: none was
     bool operator==(const SceneRequest&) const = default;
 };
 std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request);
@@ -41,7 +45,14 @@ std::shared_ptr<const scene::CompiledScene> compile(scene::SceneDesc desc, const
 // Of a description that is edited and stays: in place of what the request's source names. `memory`: of the compilation
 // before, or null.
 std::shared_ptr<const scene::CompiledScene> compileKept(const scene::SceneDesc& desc, const SceneRequest& request,
-                                                        scene::CompileMemory* memory);
+                                                        scene::CompileMemory* memory,
+                                                        const TexelLoader& loadTexels = {});
+
+// The file that a source names: itself, or the assets' file of this name.
+std::filesystem::path fileNamedBy(const std::string& source);
+
+// The moment from the start of an animation, also where it comes after one that a scene file imports a model at.
+scene::Moment wholeMoment(const SceneRequest& request);
 
 // The request's scene at any time of its animation: its file is read once. None where nothing moves, whatever the time.
 // Both throw what compile() throws.

@@ -50,6 +50,7 @@ class Compiler {
         out_->title = desc_.title;
         out_->camera = camera_;
         out_->cameras = desc_.cameras;
+        out_->motion = desc_.motion;
         out_->defaults = desc_.render;
         out_->origin = desc_.camera.lookFrom;
         out_->globals.origin = shared::vec3(out_->origin);
@@ -80,7 +81,7 @@ class Compiler {
   private:
     // ---- objects ----------------------------------------------------------------------------------------------------
 
-    // Of objects that are not const, meshes are given back as they are compiled.
+    // Of objects that are not const, meshes that nobody shares are given back as they are compiled.
     template <class Objects>
     void emit(Objects& objects, const Placement& parent) {
         Placement at = parent;
@@ -135,9 +136,13 @@ class Compiler {
         }
     }
     void emitMesh(MeshDesc& object, const Placement& at) {
-        const auto consume = [&](auto& mesh) { sink_.add(mesh, materials_.find(object.material), object.light, at); };
-        if (auto* data = std::get_if<Boxed<MeshData>>(&object.source)) return consume(**data);
-        if (auto* data = std::get_if<Boxed<FloatMeshData>>(&object.source)) return consume(**data);
+        const auto consume = [&](auto* data) {
+            auto* own = data == nullptr ? nullptr : data->own();
+            if (own != nullptr) sink_.add(*own, materials_.find(object.material), object.light, at);
+            return own != nullptr;
+        };
+        if (consume(std::get_if<Boxed<MeshData>>(&object.source))) return;
+        if (consume(std::get_if<Boxed<FloatMeshData>>(&object.source))) return;
         emitMesh(std::as_const(object), at);
     }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include <glm/geometric.hpp>
@@ -36,13 +37,13 @@ double aspectOf(const tinygltf::Camera& source) {
     return std::abs(source.orthographic.xmag / source.orthographic.ymag);
 }
 
-// Where a node puts a camera; what it looks at is turned around in a window: as far away as the scene's middle.
-CameraDesc cameraAt(const GltfFile& file, const GltfNodes::Placed& placed, const Bounds& bounds) {
+// Where a node puts a camera; what it looks at is turned around in a window: as far away as the scene's middle. None
+// where the transform leaves it no direction.
+std::optional<CameraDesc> cameraAt(const GltfNodes::Placed& placed, const Bounds& bounds) {
     CameraDesc camera;
     camera.lookFrom = placed.toWorld.offset;
     const glm::dvec3 view = placed.toWorld.vector({0, 0, -1}), up = placed.toWorld.vector({0, 1, 0});
-    if (!(glm::length(glm::cross(view, up)) > 1e-9 * glm::length(view) * glm::length(up)))
-        file.fail(placeOfNode(placed.node), "its transform leaves the camera no direction");
+    if (!(glm::length(glm::cross(view, up)) > 1e-9 * glm::length(view) * glm::length(up))) return std::nullopt;
     const glm::dvec3 direction = glm::normalize(view);
     camera.up = glm::normalize(up);
     const double distance = glm::dot(bounds.center() - camera.lookFrom, direction);
@@ -53,32 +54,39 @@ CameraDesc cameraAt(const GltfFile& file, const GltfNodes::Placed& placed, const
 
 } // namespace
 
-void addCameras(const GltfFile& file, const GltfNodes& nodes, const Bounds& bounds, SceneDesc& scene) {
+void addCameras(const GltfFile& file, const GltfNodes& nodes, const GltfStart& start, SceneDesc& scene) {
     UniqueNames names;
     bool isFirst = true;
-    scene.camera = framingCamera(bounds);
+    scene.camera = framingCamera(start.bounds);
     for (const GltfNodes::Placed& placed : nodes.placed()) {
         const tinygltf::Node& node = file.model.nodes[placed.node];
         if (node.camera < 0) continue;
         const auto number = static_cast<std::size_t>(node.camera);
         const tinygltf::Camera& source = file.model.cameras[number];
-        CameraDesc camera = cameraAt(file, placed, bounds);
-        camera.verticalFov = verticalFov(file, number, camera.focusDistance);
         const std::string name = names.unique(source.name.empty() ? node.name : source.name, "camera", number);
+        const auto noteThat = [&](const char* what) { scene.notices.push_back("camera \"" + name + "\" " + what); };
+        std::optional<CameraDesc> camera = cameraAt(placed, start.bounds);
+        if (camera) {
+            camera->verticalFov = verticalFov(file, number, camera->focusDistance);
+        } else {
+            const auto atStart = start.cameras.find(name);
+            noteThat(atStart != start.cameras.end()
+                         ? "stays where it was at the start: the transform of its node leaves it no direction"
+                         : "is left out: the transform of its node leaves it no direction");
+            if (atStart == start.cameras.end()) continue;
+            camera = atStart->second;
+        }
         if (source.type != "perspective")
-            scene.notices.push_back(
-                "camera \"" + name +
-                "\" is orthographic: seen in perspective, which shows as much at the scene's middle");
+            noteThat("is orthographic: seen in perspective, which shows as much at the scene's middle");
         if (placed.toWorld.mirrors())
-            scene.notices.push_back("camera \"" + name +
-                                    "\" is mirrored by its node: what it sees is not, as scaling is no part of a view");
+            noteThat("is mirrored by its node: what it sees is not, as scaling is no part of a view");
         if (isFirst) {
-            scene.camera = camera;
+            scene.camera = *camera;
             const double aspect = aspectOf(source);
             if (aspect > 1 / kLargest && aspect < kLargest) scene.render.aspect = aspect;
         }
         isFirst = false;
-        scene.cameras[name] = camera;
+        scene.cameras[name] = *camera;
     }
 }
 

@@ -48,11 +48,31 @@ GltfFile readWhole(const std::filesystem::path& path) {
     return file;
 }
 
+} // namespace
+
+// What poses of a file have in common.
+struct GltfPoses {
+    // A primitive that no joint moves, in a state of its morph targets.
+    struct KeptMesh {
+        Boxed<MeshData> data;
+        std::size_t rescaled; // vertices, see readPrimitive()
+    };
+    using Key = std::pair<const tinygltf::Primitive*, std::vector<double>>;
+    std::map<Key, KeptMesh> meshes; // of the latest pose
+    std::optional<std::string> animation;
+    GltfStart start; // of that animation
+};
+
+namespace {
+
 class Importer {
   public:
-    Importer(const GltfFile& file, Moment moment)
+    // `start`: null where this is it.
+    Importer(const GltfFile& file, Moment moment, const GltfStart* start, GltfPoses& poses)
         : file_(file),
           moment_(std::move(moment)),
+          start_(start),
+          poses_(poses),
           budget_(file_),
           materials_(file_, scene_),
           nodes_(file_, moment_, budget_) {
@@ -63,10 +83,12 @@ class Importer {
     SceneDesc run() {
         addMeshes();
         addLights();
-        addCameras(file_, nodes_, bounds_, scene_);
+        addCameras(file_, nodes_, start_ != nullptr ? *start_ : GltfStart{bounds_, {}}, scene_);
+        addMotion();
         addNotices();
         return std::move(scene_);
     }
+    const Bounds& bounds() const { return bounds_; }
 
   private:
     // A mesh in one of its poses.
@@ -118,8 +140,9 @@ class Importer {
         const PosedMesh& posed;
         std::shared_ptr<const std::vector<Affine>> joints;
         std::string place;
-        MeshData data;
-        std::size_t rescaled; // vertices, see readPrimitive()
+        std::optional<GltfPoses::KeptMesh> kept = {}; // of the pose before; none: it is to be read
+        MeshData data = {};
+        std::size_t rescaled = 0; // vertices, see readPrimitive()
     };
 
     // The primitives of a mesh, none of them read yet.
@@ -133,7 +156,9 @@ class Importer {
             const std::string place = "/meshes/" + std::to_string(posed.mesh) + "/primitives/" + std::to_string(i);
             if (primitive.extensions.count("KHR_draco_mesh_compression") > 0 && !isTriangles(primitive))
                 file_.fail(place, "is compressed by Draco, which this build lacks");
-            surfaces.push_back({&primitive, materials_.use(primitive.material), posed, joints, place, {}, 0});
+            surfaces.push_back({&primitive, materials_.use(primitive.material), posed, joints, place});
+            const auto kept = poses_.meshes.find({&primitive, posed.weights});
+            if (posed.skin < 0 && kept != poses_.meshes.end()) surfaces.back().kept = kept->second;
             budget_.spend(elementCount(file_, primitive, useOf(surfaces.back())), place);
         }
     }
@@ -183,25 +208,36 @@ class Importer {
         for (const auto& [posed, where] : places) addSurfaces(posed, surfaces);
         parallelFor(0, surfaces.size(), [&](std::size_t i) {
             Surface& surface = surfaces[i];
-            surface.data = readPrimitive(file_, *surface.primitive, useOf(surface), surface.place, surface.rescaled);
+            if (!surface.kept)
+                surface.data =
+                    readPrimitive(file_, *surface.primitive, useOf(surface), surface.place, surface.rescaled);
         });
         auto next = surfaces.begin();
         UniqueNames names;
+        poses_.meshes.clear();
         for (const auto& [posed, where] : places) {
             std::vector<ObjectDesc> objects;
             Bounds bounds;
             for (; next != surfaces.end() && &next->posed == &posed; ++next) {
-                rescaled_ += next->rescaled;
-                if (next->data.triangles.empty()) {
+                const GltfPoses::KeptMesh mesh = meshOf(*next);
+                rescaled_ += mesh.rescaled;
+                if (mesh.data->triangles.empty()) {
                     ++withoutTriangles_;
                     continue;
                 }
-                for (const glm::dvec3& position : next->data.positions) bounds.add(position);
-                objects.push_back({MeshDesc{std::move(next->data), next->material.name, !next->material.isUnlit}});
+                for (const glm::dvec3& position : mesh.data->positions) bounds.add(position);
+                objects.push_back({MeshDesc{mesh.data, next->material.name, !next->material.isUnlit}});
             }
             if (!objects.empty()) place(static_cast<std::size_t>(posed.mesh), std::move(objects), bounds, where, names);
         }
         if (scene_.objects.empty()) file_.fail("/scenes", "there is no triangle in the scene");
+    }
+
+    // As it is now, or was in the pose before; one that another pose may have like this is kept.
+    GltfPoses::KeptMesh meshOf(Surface& surface) {
+        if (!surface.kept) surface.kept = GltfPoses::KeptMesh{std::move(surface.data), surface.rescaled};
+        if (surface.posed.skin < 0) poses_.meshes.insert({{surface.primitive, surface.posed.weights}, *surface.kept});
+        return *surface.kept;
     }
 
     void place(std::size_t mesh, std::vector<ObjectDesc> surfaces, const Bounds& bounds,
@@ -232,8 +268,10 @@ class Importer {
             for (int c = 0; c < 3; ++c)
                 if (!(power[c] >= 0 && power[c] <= kLargest)) file_.fail(place, "its intensity must be from 0 to 1e9");
             const glm::dvec3 position = placed.toWorld.offset, forward = placed.toWorld.vector({0, 0, -1});
-            if (source.type != "point" && !(glm::length(forward) > 0))
-                file_.fail(placeOfNode(placed.node), "its transform leaves the light no direction");
+            if (source.type != "point" && !(glm::length(forward) > 0)) { // a scale of 0, as hides nodes
+                ++undirected_;
+                continue;
+            }
             if (source.type == "point") {
                 scene_.objects.push_back({PointLightDesc{position, power}});
             } else if (source.type == "directional") {
@@ -261,6 +299,9 @@ class Importer {
         if (flattened_ > 0)
             notices.push_back(counted(flattened_, "mesh is", "meshes are") +
                               " left out: the transform of the node cannot be inverted");
+        if (undirected_ > 0)
+            notices.push_back(counted(undirected_, "light is", "lights are") +
+                              " left out: the transform of the node leaves it no direction");
         if (withoutJoints_ > 0)
             notices.push_back(counted(withoutJoints_, "skin is", "skins are") + " left out: vertices have no joints");
         if (rescaled_ > 0)
@@ -270,9 +311,17 @@ class Importer {
         if (file_.model.scenes.size() > 1) notices.push_back("scenes other than the default one are left out");
     }
 
+    void addMotion() {
+        Motion& motion = scene_.motion;
+        motion.animations = animationNames(file_);
+        motion.chosen = chosenAnimation(motion.animations, moment_).value_or(0);
+        motion.length = nodes_.animationSeconds();
+        if (!motion.animations.empty()) motion.time = moment_.time;
+    }
+
     // Tells those who asked for no moment that there are others.
     void addAnimationNotice() {
-        const std::vector<std::string> names = animationNames(file_);
+        const std::vector<std::string>& names = scene_.motion.animations;
         if (names.empty()) return noticeStandstill(moment_, scene_.notices);
         if (moment_ != Moment() || moment_.isAsked) return;
         std::ostringstream text;
@@ -285,6 +334,8 @@ class Importer {
 
     const GltfFile& file_;
     const Moment moment_;
+    const GltfStart* const start_;
+    GltfPoses& poses_;
     GltfBudget budget_;
     SceneDesc scene_;
     GltfMaterials materials_;
@@ -292,6 +343,7 @@ class Importer {
     Bounds bounds_; // of everything, in world space
     std::size_t withoutTriangles_ = 0;
     std::size_t flattened_ = 0;     // places of meshes
+    std::size_t undirected_ = 0;    // lights
     std::size_t withoutJoints_ = 0; // nodes with a skin that moves nothing
     std::size_t rescaled_ = 0;      // vertices whose joints' weights are no shares
 };
@@ -302,15 +354,26 @@ SceneDesc loadGltfScene(const std::filesystem::path& path, const Moment& moment)
     return GltfScene(path).at(moment);
 }
 
-GltfScene::GltfScene(const std::filesystem::path& path) : file_(std::make_unique<const GltfFile>(readWhole(path))) {}
+GltfScene::GltfScene(const std::filesystem::path& path)
+    : file_(std::make_unique<const GltfFile>(readWhole(path))), poses_(std::make_unique<GltfPoses>()) {}
 GltfScene::~GltfScene() = default;
 
 bool GltfScene::isAnimated() const {
     return !file_->model.animations.empty();
 }
 
-SceneDesc GltfScene::at(const Moment& moment) const {
-    return Importer(*file_, moment).run();
+SceneDesc GltfScene::at(const Moment& moment) {
+    GltfPoses& poses = *poses_;
+    const bool isStart = !isAnimated() || moment.time == 0;
+    if (isStart || poses.animation != moment.animation) {
+        const Moment start = isStart ? moment : Moment{moment.animation};
+        Importer importer(*file_, start, nullptr, poses);
+        SceneDesc scene = importer.run();
+        poses.start = {importer.bounds(), scene.cameras};
+        poses.animation = moment.animation;
+        if (isStart) return scene;
+    }
+    return Importer(*file_, moment, &poses.start, poses).run();
 }
 
 } // namespace rt::scene

@@ -15,8 +15,9 @@ namespace rt::scene {
 SceneDesc loadGltfScene(const std::filesystem::path& path, const Moment& moment = {});
 
 struct GltfFile;
+struct GltfPoses;
 
-// A file that is read once, to be posed as often as one likes.
+// A file that is read once, to be posed as often as one likes: what no pose changes is made once.
 class GltfScene {
   public:
     // Throws InputError as loadGltfScene() does.
@@ -25,10 +26,11 @@ class GltfScene {
 
     bool isAnimated() const;
     // As loadGltfScene().
-    SceneDesc at(const Moment& moment) const;
+    SceneDesc at(const Moment& moment);
 
   private:
     const std::unique_ptr<const GltfFile> file_;
+    const std::unique_ptr<GltfPoses> poses_;
 };
 
 } // namespace rt::scene

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 
 #include "Common/Scene/Json/SceneJson.h"
 #include "Common/Scene/Json/SceneReader.h"
+#include "Common/Scene/ModelFile.h"
 
 namespace rt::scene {
 
@@ -30,15 +32,27 @@ class ObjectKeys {
 
 // ---- reading -------------------------------------------------------------------------------------------------------
 
+// How the model is read, and at which moment it is wanted.
+struct ModelReader {
+    Moment asked = {};
+    std::function<SceneDesc(const std::filesystem::path&, const Moment&)> load = loadModelFile;
+};
+
 ImportDesc readImport(const JsonNode& node, const SceneReferences& references);
-SceneDesc loadImport(const JsonNode& node, const SceneReferences& references);
+std::filesystem::path fileOfImport(const ImportDesc& import); // the one that there is, be it named in other case
+SceneDesc loadImport(const JsonNode& node, const SceneReferences& references, const ModelReader& reader);
 void removeFromModel(const JsonNode& removed, SceneDesc& scene);
 void changeModel(const JsonNode& changes, const SceneReferences& references, SceneDesc& scene);
 // What is used must not have been removed.
 void checkNames(const JsonNode& root, const SceneDesc& scene);
 
-// As parseScene(), on a model that has been read by now.
+// As parseScene(), on a model that has been read by now, or that the reader reads. Throws UsageError, too, of the
+// moment that is asked for.
 SceneDesc parseSceneOn(std::string_view text, const std::string& file, const std::filesystem::path& folder,
                        std::optional<SceneDesc> model);
+SceneDesc parseSceneAt(std::string_view text, const std::string& file, const std::filesystem::path& folder,
+                       const ModelReader& reader);
+std::optional<ImportDesc> importIn(std::string_view text, const std::filesystem::path& sceneFile);
+std::vector<std::byte> readSceneFile(const std::filesystem::path& path);
 
 } // namespace rt::scene

@@ -71,16 +71,23 @@ ImportDesc readImport(const JsonNode& node, const SceneReferences& references) {
     return import;
 }
 
-SceneDesc loadImport(const JsonNode& node, const SceneReferences& references) {
+std::filesystem::path fileOfImport(const ImportDesc& import) {
+    std::error_code none;
+    if (std::filesystem::exists(import.file, none)) return import.file;
+    const std::filesystem::path other = findInOtherCase(import.file);
+    return other.empty() ? import.file : other;
+}
+
+SceneDesc loadImport(const JsonNode& node, const SceneReferences& references, const ModelReader& reader) {
     const ImportDesc import = readImport(node, references);
+    const std::filesystem::path file = fileOfImport(import);
     try {
-        std::error_code none;
-        const std::filesystem::path file(import.file), other = findInOtherCase(file);
-        if (std::filesystem::exists(file, none) || other.empty()) return loadModelFile(file, import.moment);
-        SceneDesc scene = loadModelFile(other, import.moment);
-        scene.notices.push_back("the imported file is named in other case: " + other.filename().string());
+        SceneDesc scene = reader.load(file, momentOfImport(import.moment, reader.asked));
+        if (file != import.file)
+            scene.notices.push_back("the imported file is named in other case: " + file.filename().string());
         return scene;
     } catch (const UsageError& error) { // of an animation
+        if (!reader.asked.animation.empty()) throw;
         node.fail(error.what());
     }
 }

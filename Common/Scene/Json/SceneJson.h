@@ -1,18 +1,25 @@
 // Scene files. The format is published as Assets/scene.schema.json.
 #pragma once
+#include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "Common/Scene/Moment.h"
 #include "Common/Scene/SceneDesc.h"
 
 namespace rt::scene {
 
-// Reads a scene file; files it names are looked for beside it, then among the assets. Throws InputError: for syntax
-// with line and column, for contents with the JSON path, the value and what is allowed.
-SceneDesc loadSceneFile(const std::filesystem::path& path);
+class AnimatedModel;
+
+// Reads a scene file; files it names are looked for beside it, then among the assets. A model that it imports is posed
+// as `asked` and momentOfImport() say; where nothing is imported, nothing moves. Throws InputError: for syntax with line
+// and column, for contents with the JSON path, the value and what is allowed; and UsageError for an animation that was
+// asked for and is not there.
+SceneDesc loadSceneFile(const std::filesystem::path& path, const Moment& asked = {});
 
 // The same from a text; `file` stands in messages, `folder` is where files are looked for first.
 SceneDesc parseScene(std::string_view text, const std::string& file, const std::filesystem::path& folder);
@@ -26,6 +33,21 @@ struct ImportDesc {
     Moment moment;
 };
 std::optional<ImportDesc> importOf(const std::filesystem::path& sceneFile); // none: the file has all by itself
+
+// A scene file that is read once, with what it imports, to be posed as often as one likes.
+class PosedSceneFile {
+  public:
+    explicit PosedSceneFile(const std::filesystem::path& path); // throws InputError
+    ~PosedSceneFile();
+    bool isAnimated() const { return model_ != nullptr; }
+    SceneDesc at(const Moment& asked); // as loadSceneFile()
+
+  private:
+    const std::filesystem::path path_;
+    const std::vector<std::byte> text_;
+    std::unique_ptr<AnimatedModel> model_; // null: it imports none
+};
+
 // The text of a scene file of what the scene has beyond the model, as loadModelFile() gives it. Throws InputError where
 // reading it would not give an equal description.
 std::string toJson(const SceneDesc& scene, const ImportDesc& import, SceneDesc model);

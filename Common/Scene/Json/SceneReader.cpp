@@ -93,7 +93,7 @@ RenderDefaults readRender(const JsonNode& node) {
 
 // `model`: what the import has led to; empty: it is read.
 SceneDesc readScene(const JsonNode& root, SceneReferences references, const LongJson& text,
-                    std::optional<SceneDesc> model) {
+                    std::optional<SceneDesc> model, const ModelReader& reader) {
     root.expectKeys({"$schema", "version", "title", "comment", "import", "removed", "changes", "camera", "cameras",
                      "background", "textures", "materials", "prototypes", "objects", "importance_targets", "render"});
     if (const auto version = root.find("version"); version && version->value() != 1) version->failValue("1");
@@ -102,7 +102,7 @@ SceneDesc readScene(const JsonNode& root, SceneReferences references, const Long
         if (!import && root.has(key)) root.at(key).fail("there is no \"import\" that it could change");
     SceneDesc scene;
     if (import) {
-        scene = model ? std::move(*model) : loadImport(*import, references);
+        scene = model ? std::move(*model) : loadImport(*import, references, reader);
         references.setModel(&scene);
     }
     if (const auto removed = root.find("removed")) removeFromModel(*removed, scene);
@@ -193,24 +193,37 @@ std::string readChoice(const JsonNode& node, const std::vector<std::string>& all
 
 // ---- interface -----------------------------------------------------------------------------------------------------
 
-SceneDesc parseSceneOn(std::string_view text, const std::string& file, const std::filesystem::path& folder,
-                       std::optional<SceneDesc> model) {
+namespace {
+
+SceneDesc parse(std::string_view text, const std::string& file, const std::filesystem::path& folder,
+                std::optional<SceneDesc> model, const ModelReader& reader) {
     const LongJson json(text, file, "objects");
     const LargeJson document = json.document();
     const JsonNode root(*document, file);
-    SceneDesc scene = readScene(root, SceneReferences(root, folder), json, std::move(model));
+    SceneDesc scene = readScene(root, SceneReferences(root, folder), json, std::move(model), reader);
     scene.id = file;
     return scene;
 }
 
-SceneDesc parseScene(std::string_view text, const std::string& file, const std::filesystem::path& folder) {
-    return parseSceneOn(text, file, folder, std::nullopt);
+} // namespace
+
+SceneDesc parseSceneOn(std::string_view text, const std::string& file, const std::filesystem::path& folder,
+                       std::optional<SceneDesc> model) {
+    return parse(text, file, folder, std::move(model), {});
 }
 
-std::optional<ImportDesc> importOf(const std::filesystem::path& sceneFile) {
-    const std::vector<std::byte> bytes = readFile(sceneFile, kMaxSceneBytes);
+SceneDesc parseSceneAt(std::string_view text, const std::string& file, const std::filesystem::path& folder,
+                       const ModelReader& reader) {
+    return parse(text, file, folder, std::nullopt, reader);
+}
+
+SceneDesc parseScene(std::string_view text, const std::string& file, const std::filesystem::path& folder) {
+    return parse(text, file, folder, std::nullopt, {});
+}
+
+std::optional<ImportDesc> importIn(std::string_view text, const std::filesystem::path& sceneFile) {
     const std::string name = sceneFile.string();
-    const LongJson json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, "objects");
+    const LongJson json(text, name, "objects");
     const LargeJson document = json.document();
     const JsonNode root(*document, name);
     const std::filesystem::path folder = sceneFile.parent_path();
@@ -218,12 +231,8 @@ std::optional<ImportDesc> importOf(const std::filesystem::path& sceneFile) {
     return import ? std::optional(readImport(*import, SceneReferences(root, folder))) : std::nullopt;
 }
 
-SceneDesc loadSceneFile(const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = readFile(path, kMaxSceneBytes);
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    SceneDesc scene = parseScene(text, path.string(), path.parent_path());
-    scene.id = path.filename().string();
-    return scene;
+std::vector<std::byte> readSceneFile(const std::filesystem::path& path) {
+    return readFile(path, kMaxSceneBytes);
 }
 
 } // namespace rt::scene
