@@ -24,6 +24,7 @@
 #include "Common/Gui/SessionLink.h"
 #include "Common/Gui/Shortcuts.h"
 #include "Common/Gui/Snapshot.h"
+#include "Common/Gui/TimelineBar.h"
 #include "Common/Gui/UserFiles.h"
 #include "Common/Gui/Viewports.h"
 #include "Common/Render/Stopwatch.h"
@@ -73,6 +74,7 @@ class App {
                paths_,
                probeImage_} {
         gui_.recovery.autosave = autosave_.get();
+        gui_.timeline.setFrameRate(options.frameRate);
         gui_.showFirstSteps = !std::exchange(settings_.sawFirstSteps, true);
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
     }
@@ -173,7 +175,8 @@ bool App::askBeforeClosing() {
 // Whether something may move by itself.
 bool App::isAwake() const {
     const double seconds = device_.isSoftware() ? kSoftAwakeSeconds : kAwakeSeconds;
-    return flying_ || ImGui::IsAnyMouseDown() || framesSinceInput_ < kSettlingFrames ||
+    const bool isTimePassing = gui_.timeline.isPlaying() && !gui_.timeline.isWaiting();
+    return flying_ || isTimePassing || ImGui::IsAnyMouseDown() || framesSinceInput_ < kSettlingFrames ||
            (sinceInput_ && sinceInput_->seconds() < seconds);
 }
 
@@ -285,6 +288,7 @@ void App::drawFrame(bool isShown) {
     probeImage_.beginFrame();
     for (const InputEvent& event : input_)
         if (isKeyPress(event)) obeyKey(gui_, event);
+    followTimeline(gui_);
     followEditing(gui_);
     followRecovery(gui_);
     followMaterials(gui_);
@@ -292,7 +296,7 @@ void App::drawFrame(bool isShown) {
     followNoisyPixel(gui_);
     drawInterface();
     flying_ = fly(gui_, input_, seconds);
-    gui_.isHeld = flying_ || ImGui::IsAnyMouseDown() || gui_.editing.tool;
+    gui_.isHeld = flying_ || ImGui::IsAnyMouseDown() || gui_.editing.tool || gui_.timeline.isPlaying();
     isShown ? imgui_.endFrame() : imgui_.dropFrame();
     viewports_.send();
     if (gui_.saveRequested || !gui_.saveAs.empty()) save();
@@ -325,10 +329,10 @@ void App::drawInterface() {
     }
     panels.front().focus = std::exchange(gui_.focusPanels, false);
     const float scale = imgui_.scale();
-    viewports_.place(
+    const Rect rest =
         layOut(panels, scale,
-               {[this] { drawToolbar(gui_); }, [this] { drawProgress(gui_); }, [this] { drawStatusLine(gui_); }}),
-        scale);
+               {[this] { drawToolbar(gui_); }, [this] { drawProgress(gui_); }, [this] { drawStatusLine(gui_); }});
+    viewports_.place(drawTimelineBar(gui_, rest), scale);
     viewports_.handlePointer();
     viewports_.drawFrames();
     drawOtherViewports(scale);

@@ -66,6 +66,7 @@ std::string Gui::whyNotOther() const {
     if (!state.scene) return "There is no scene yet";
     if (state.sceneEdits > 0) return "The scene has been edited here: save it and open the file first";
     if (state.picture.isPreview) return "Ray tracing is off here";
+    if (state.poses) return "The shutter is open here: pictures of one instant are compared";
     if (!settings.request.accumulate) return "Frames of their own are no render to compare with";
     if (settings.request.settings.features) return "The features are forced by --features, which is for one program";
     return {};
@@ -79,7 +80,7 @@ void Gui::followOther() {
         otherIsWanted = false;
         app::OtherJob job;
         job.program = isGpu ? app::kCpuProgram : app::kGpuProgram;
-        job.scene = {state.source, settings.request.oneSidedLights, "", assetsBelow};
+        job.scene = {state.source, settings.request.oneSidedLights, "", assetsBelow, state.moment};
         job.compiled = state.scene;
         job.camera = camera.camera();
         job.settings = state.settings;

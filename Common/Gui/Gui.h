@@ -16,6 +16,7 @@
 #include "Common/App/Interactive/OtherEngine.h"
 #include "Common/App/Interactive/SceneEditor.h"
 #include "Common/App/Interactive/SceneExport.h"
+#include "Common/App/Interactive/Timeline.h"
 #include "Common/Gui/FileBrowser.h"
 #include "Common/Gui/FrameTimer.h"
 #include "Common/Gui/Inspector.h"
@@ -76,6 +77,7 @@ struct Gui {
     PanelImage& probeImage;
 
     app::SessionState state; // of this frame
+    app::Timeline timeline;
     SceneEditing editing;
     MaterialTools materials;
     Recovery recovery;

@@ -13,6 +13,7 @@
 #include "Common/Gui/Panels/ViewModes.h"
 #include "Common/Gui/UserFiles.h"
 #include "Common/Image/Display.h"
+#include "Common/Scene/FollowedCamera.h"
 
 namespace rt::gui {
 
@@ -28,8 +29,8 @@ app::InteractiveSession::Setup sessionSetup(const app::Options& options, const W
     setup.makeEngine = program.makeEngine;
     setup.engine = settings.engine;
     setup.request = settings.request;
-    setup.scene = {settings.scene, settings.request.oneSidedLights, options.camera, options.assetsBelow,
-                   options.moment};
+    setup.scene = {settings.scene, settings.request.oneSidedLights, options.camera, options.assetsBelow, options.moment,
+                   options.shutter};
     // A file that was open the last time may be gone by now.
     if (options.given.count("--scene") == 0) setup.fallbackScene = app::GuiSettings().scene;
     setup.atEnd = endFiles(options, settings);
@@ -64,9 +65,12 @@ void SessionLink::take(bool hasFocus) {
     }
     if (state.sceneSerial > 0 && state.sceneSerial != now_.sceneSerial) {
         now_.sceneSerial = state.sceneSerial;
-        gui_.camera.setHome(state.scene->camera);
-        now_.camera = state.scene->camera;
+        gui_.camera.setHome(state.sceneCamera);
+        now_.camera = state.sceneCamera;
+    } else if (now_.scene && state.scenePoses > 0 && state.scene != now_.scene) {
+        gui_.camera.moveHome(scene::followedCamera(gui_.camera.home(), *now_.scene, *state.scene));
     }
+    now_.scene = state.scene;
     if (hasFocus) {
         rememberScene();
         showTitle();
@@ -125,7 +129,8 @@ void SessionLink::rememberScene() {
     sceneLoads_ = state.sceneLoads;
     gui_.errors.dismiss(app::ErrorSource::Scene);
     // Of an edit there is no more to tell.
-    if (std::exchange(sceneReads_, state.sceneReads) == state.sceneReads && state.source == rememberedSource_) return;
+    const bool isReadAnew = std::exchange(sceneReads_, state.sceneReads) != state.sceneReads && state.scenePoses == 0;
+    if (!isReadAnew && state.source == rememberedSource_) return;
     rememberedSource_ = state.source;
     settings.scene = state.source;
     std::error_code none;

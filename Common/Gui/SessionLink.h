@@ -32,6 +32,7 @@ class SessionLink {
         app::EngineChoice engine;
         bool rayTracing = true, held = false;
         std::uint32_t previewWidth = 0;
+        std::shared_ptr<const scene::CompiledScene> scene;
         scene::CameraDesc camera;
         app::ViewRequest view;
         std::shared_ptr<const image::Image> shownHeld;

@@ -14,6 +14,7 @@ class CameraController {
     // A camera of the scene: reset() leads back to it, and its distance from what it looks at sets the pace.
     void setHome(const scene::CameraDesc& camera);
     const scene::CameraDesc& home() const { return home_; }
+    void moveHome(const scene::CameraDesc& camera) { home_ = camera; } // that camera is there now; this one stays
     void reset();
 
     const scene::CameraDesc& camera() const { return camera_; }

@@ -19,6 +19,8 @@ std::vector<std::string> writeFilm(const SaveRequest& request, Options options, 
     const Stopwatch watch;
     // No flag renders an edited scene again.
     options.scene = scene.request.source + (scene.request.edits > 0 ? " (edited)" : "");
+    options.moment = scene.request.moment;
+    options.shutter = scene.poses ? scene.request.shutter : scene::Shutter();
     options.settings = film.settings();
     options.outputs = request.files;
     options.aovs = request.aovs;

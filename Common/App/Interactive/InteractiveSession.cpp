@@ -95,7 +95,10 @@ ViewportId InteractiveSession::openViewport(const RenderRequest& request, const 
     loaded.request = loader_.lastRequest();
     loaded.request.source = now.source;
     loaded.request.moment = now.moment;
+    loaded.request.shutter = now.shutter;
     loaded.request.edits = now.sceneEdits;
+    loaded.request.poses = now.scenePoses;
+    loaded.poses = now.poses;
     loaded.mark = now.sourceMark;
     loaded.seconds = now.seconds.load;
     loaded.reads = now.sceneReads;
@@ -137,10 +140,11 @@ void InteractiveSession::noteMotion() {
 void InteractiveSession::hand(LoadedScene loaded) {
     if (loaded.scene && loaded.request.edits == 0) ++reads_;
     loaded.reads = reads_;
-    if (loaded.request.edits > 0) board_.noteMotion(); // an edit is seen first where it is made
+    const bool isPose = loaded.request.edits == 0 && loaded.request.poses > 0;
+    if (loaded.request.edits > 0 || isPose) board_.noteMotion(); // seen first where it was wished
     for (const auto& viewport : viewports()) {
         if (loaded.failure && viewport->id != board_.focus()) continue;
-        viewport->mailbox.post(Cancel::FirstPicture, [&](Requests& requests) {
+        viewport->mailbox.post(isPose ? Cancel::Slice : Cancel::FirstPicture, [&](Requests& requests) {
             if (loader_.isWanted(loaded.request)) requests.scene = loaded;
         });
     }
@@ -179,6 +183,13 @@ std::uint64_t InteractiveSession::edit(std::vector<scene::SceneEdit> edits, bool
         if (requests.scene && !loader_.isWanted(requests.scene->request)) requests.scene.reset();
         noteChange(requests);
     });
+    return number;
+}
+
+std::uint64_t InteractiveSession::pose(const scene::Moment& moment, const scene::Shutter& shutter) {
+    const std::uint64_t number = loader_.pose(moment, shutter);
+    noteMotion();
+    postToAll(Cancel::Nothing, [](Requests& requests) { noteChange(requests); });
     return number;
 }
 

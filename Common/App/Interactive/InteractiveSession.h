@@ -39,6 +39,10 @@ class InteractiveSession {
 
     // Requests. None of them waits; the last of a kind counts.
     void open(const std::string& source, std::optional<scene::Moment> moment = {}); // as SceneLoader has it
+    // The scene at another moment of its motion, as SceneLoader has it; a picture that has been begun is shown first.
+    // The camera stays where it is or, where it is one of the scene's, moves with it, and so do all settings. Returns
+    // SessionState::scenePoses of the scene that is there then.
+    std::uint64_t pose(const scene::Moment& moment, const scene::Shutter& shutter);
     // For a file that has changed: gives way to what is being loaded or prepared. Whether it was requested.
     bool reopen(const std::string& source);
     // From now on the present scene is edited: this is its description, and each edit changes it as the window's own.

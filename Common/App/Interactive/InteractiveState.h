@@ -113,10 +113,15 @@ struct SessionState {
     std::uint64_t sceneSerial = 0;             // grows with each scene; 0: none yet
     std::string source;                        // of the scene, as it was asked for
     scene::Moment moment;                      // likewise
+    scene::Shutter shutter;                    // likewise, though edits are shown at one instant
+    PoseScene poses;                           // as LoadedScene has it
     std::optional<FileFingerprint> sourceMark; // of that file, as it was read
     std::uint64_t sceneLoads = 0;              // grows with each that was loaded, also anew
     std::uint64_t sceneReads = 0;              // grows with each that was read from its source
     std::uint64_t sceneEdits = 0;              // which of the edits it has, as SceneRequest counts; 0: none
+    std::uint64_t scenePoses = 0;              // which of the moments that were wished it has, likewise
+    std::uint64_t failedPose = 0;              // of those the last that could not be had
+    scene::CameraDesc sceneCamera;             // that a view of the scene of this serial begins with
     std::string failedSource;                  // of the last scene that could not be had
     std::uint64_t sceneFailures = 0;           // grows with each of them
     std::shared_ptr<const scene::CompiledScene> scene;

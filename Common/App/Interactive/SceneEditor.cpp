@@ -129,7 +129,7 @@ void SceneEditor::repeat(std::vector<EditStep> steps) {
 // ---- the document --------------------------------------------------------------------------------------------------
 
 void SceneEditor::begin() {
-    if (document_ || reading_.valid() || source_.empty()) return;
+    if (document_ || reading_.valid() || source_.empty() || isResting_) return;
     readMark_ = markOf(source_); // before it is read
     callOff_ = std::make_shared<std::atomic<bool>>(false);
     const auto read = [source = source_, moment = moment_, assetsBelow = assetsBelow_, callOff = callOff_] {

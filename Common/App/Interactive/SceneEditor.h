@@ -40,6 +40,8 @@ class SceneEditor {
     void follow(const SessionState& state);
     // Begins to read the description once more, unless it is there or on its way: what is rendered tells no names.
     void begin();
+    // Not while it is on: other poses of a scene that moves come before the description would be there.
+    void rest(bool isOn) { isResting_ = isOn; }
     bool isReading() const { return reading_.valid(); }
 
     // Null until it is there.
@@ -99,9 +101,10 @@ class SceneEditor {
     std::size_t keptFrom_ = 0;                // the history's position that the autosave begins at
     bool keepsEdits_ = false;                 // no steps, as those would lead to what it does not know
     std::optional<FileFingerprint> readMark_; // of the file that is being read
-    std::string source_;                      // of the scene that there is
-    scene::Moment moment_;                    // that it is posed at
-    std::uint64_t sceneReads_ = 0;            // that this has followed
+    bool isResting_ = false;
+    std::string source_;           // of the scene that there is
+    scene::Moment moment_;         // that it is posed at
+    std::uint64_t sceneReads_ = 0; // that this has followed
     std::optional<scene::SceneDocument> document_;
     ObjectSelection selected_;
     std::uint64_t gestures_ = 0;

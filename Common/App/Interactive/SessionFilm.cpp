@@ -113,7 +113,10 @@ void SessionFilm::refine() {
 }
 
 RenderSettings SessionFilm::settingsFor(const FilmSubject& subject) const {
-    return filmSettings(subject.request, subject.scene, round_, setup_.options.wants(Aov::Variance), speed_);
+    RenderSettings settings =
+        filmSettings(subject.request, subject.scene, round_, setup_.options.wants(Aov::Variance), speed_);
+    if (settings.adaptive && subject.engine.report().shutter) settings.adaptive = false; // poses are of all pixels
+    return settings;
 }
 
 void SessionFilm::start(const FilmSubject& subject) {

@@ -9,6 +9,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Core/Log.h"
+#include "Common/Scene/FollowedCamera.h"
 
 namespace rt::app {
 
@@ -105,7 +106,8 @@ void SessionThread::makeEngine(const EngineChoice& choice) {
     state_.setStage(setup_.options.program == kGpuProgram ? "Compiling shaders" : "Starting the engine");
     film_.publisher.forgetLatency();
     try {
-        std::unique_ptr<Engine> engine = setup_.makeEngine(choice);
+        std::unique_ptr<Engine> made = setup_.makeEngine(choice), blurred = blurring(*made, loaded_);
+        Engine* const engine = blurred ? blurred.get() : made.get();
         if (loaded_.scene && !engine->setScene(loaded_.scene, &mailbox_.cancelled(Cancel::Build))) {
             waitingEngine_ = choice;
             return state_.setStage("");
@@ -113,7 +115,9 @@ void SessionThread::makeEngine(const EngineChoice& choice) {
         // Compiles what a film like the present one needs.
         if (const auto& film = film_.run()) engine->reset(film->camera(), film->settings());
         film_.discard();
-        engine_ = std::move(engine);
+        engine_ = engine;
+        blurring_ = std::move(blurred);
+        made_ = std::move(made);
         choice_ = choice;
         state_.update([&](SessionState& state) {
             state.engine = choice;
@@ -128,13 +132,40 @@ void SessionThread::makeEngine(const EngineChoice& choice) {
     state_.setStage("");
 }
 
+// What takes samples of all the times at which the shutter is open; null: of one instant.
+std::unique_ptr<Engine> SessionThread::blurring(Engine& engine, const LoadedScene& loaded) {
+    if (!loaded.poses) return nullptr;
+    const scene::Shutter& shutter = loaded.request.shutter;
+    const double time = loaded.scene->motion.time - shutter.middle();
+    return makeShutterEngine(engine, time + shutter.open, time + shutter.close, loaded.poses);
+}
+
+// Of another scene its own; of another pose where that has the one that is seen. Whether it is another one.
+bool SessionThread::adoptCamera(const LoadedScene& loaded) {
+    const bool isSameSource = loaded_.scene && loaded.request.source == loaded_.request.source;
+    if (isSameSource && loaded.request.edits > 0) return false;
+    const scene::CompiledScene& scene = *loaded.scene;
+    scene::CameraDesc camera = scene.camera;
+    if (isSameSource && loaded.request.poses > 0) {
+        camera = followedCamera(camera_, *loaded_.scene, scene);
+        if (camera == camera_) return false;
+    } else if (loaded_.scene && scene.id == loaded_.scene->id && scene.camera == loaded_.scene->camera) {
+        return false;
+    }
+    camera_ = camera;
+    return true;
+}
+
 // A scene that cannot be had leaves the one before in place.
 void SessionThread::adopt(LoadedScene loaded) {
-    const bool isEdited = loaded.request.edits > 0 && loaded_.scene && loaded.request.source == loaded_.request.source;
+    const bool isSameSource = loaded_.scene && loaded.request.source == loaded_.request.source;
+    const bool isEdited = isSameSource && loaded.request.edits > 0;
+    const bool isPose = isSameSource && !isEdited && loaded.request.poses > 0;
     const auto failScene = [&](const std::exception_ptr& failure, bool fatal) {
         state_.setStage("");
         state_.update([&](SessionState& state) {
-            if (isEdited) return; // the source itself is well
+            if (isPose) state.failedPose = loaded.request.poses;
+            if (isEdited || isPose) return; // the source itself is well
             state.failedSource = loaded.request.source;
             ++state.sceneFailures;
         });
@@ -154,8 +185,10 @@ void SessionThread::adopt(LoadedScene loaded) {
     const scene::CompiledScene& scene = *loaded.scene;
     state_.setStage("Building " + scene.title);
     film_.publisher.forgetLatency();
+    std::unique_ptr<Engine> blurred = blurring(*made_, loaded);
+    Engine* const engine = blurred ? blurred.get() : made_.get();
     try {
-        if (!engine_->setScene(loaded.scene, &mailbox_.cancelled(Cancel::Build))) {
+        if (!engine->setScene(loaded.scene, &mailbox_.cancelled(Cancel::Build))) {
             waitingScene_ = std::move(loaded); // until the request that has interrupted it says otherwise
             return state_.setStage("");
         }
@@ -163,22 +196,26 @@ void SessionThread::adopt(LoadedScene loaded) {
         return failScene(std::current_exception(), !loaded_.scene);
     }
     if (isEdited) loaded.mark = loaded_.mark; // the file is what it was when it was read
-    const bool isAnother = !loaded_.scene || scene.id != loaded_.scene->id || scene.camera != loaded_.scene->camera;
-    if (isAnother && !isEdited) {
-        camera_ = scene.camera;
+    if (adoptCamera(loaded)) {
         ++sceneSerial_;
-        if (activity_ == Activity::Stopped) setActivity(Activity::Rendering);
+        if (activity_ == Activity::Stopped && !isPose) setActivity(Activity::Rendering);
     }
     loaded_ = std::move(loaded);
     film_.discard();
     film_.change();
-    if (!isEdited)
+    engine_ = engine;
+    blurring_ = std::move(blurred);
+    if (!isEdited && !isPose)
         for (const std::string& notice : scene.notices) logInfo(scene.id + ": " + notice);
     state_.update([&](SessionState& state) {
         state.stage.clear();
         state.scene = loaded_.scene;
         state.source = loaded_.request.source;
         state.moment = loaded_.request.moment;
+        state.shutter = loaded_.request.shutter;
+        state.poses = loaded_.poses;
+        state.scenePoses = loaded_.request.poses;
+        state.sceneCamera = camera_;
         state.sourceMark = loaded_.mark;
         state.seconds.load = loaded_.seconds;
         ++state.sceneLoads;
@@ -327,7 +364,7 @@ void SessionThread::recordWaiting() {
 }
 
 bool SessionThread::record() {
-    if (setup_.history == nullptr || !request_.accumulate) return false;
+    if (setup_.history == nullptr || !request_.accumulate || blurring_) return false; // of works of one instant
     waitsForRecord_ = isHeld_;
     if (isHeld_) return false;
     try {

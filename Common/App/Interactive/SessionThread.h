@@ -29,6 +29,8 @@ class SessionThread {
     void apply(Requests requests);
     void makeEngine(const EngineChoice& choice);
     void adopt(LoadedScene loaded);
+    bool adoptCamera(const LoadedScene& loaded);
+    static std::unique_ptr<Engine> blurring(Engine& engine, const LoadedScene& loaded);
     void nameScene(const std::string& file);
     void obey(Requests::Command command);
     void switchPreview(bool on);
@@ -75,8 +77,10 @@ class SessionThread {
     SceneLoader& loader_;
 
     EngineChoice choice_;
-    std::unique_ptr<Engine> engine_;
-    LoadedScene loaded_; // the engine's scene
+    std::unique_ptr<Engine> made_;     // as chosen
+    std::unique_ptr<Engine> blurring_; // by that one, while a shutter is open; null: none is
+    Engine* engine_ = nullptr;         // that renders the film; null: there is none yet
+    LoadedScene loaded_;               // the engine's scene
     // Were given up for something else that was wanted, and are tried again after it.
     std::optional<EngineChoice> waitingEngine_;
     std::optional<LoadedScene> waitingScene_;

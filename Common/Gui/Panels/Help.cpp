@@ -22,6 +22,7 @@ constexpr HelpLine kLeft[] = {
     {"V", "A/B split, blink, difference"},
     {"H", "heat map: what each pixel costs"},
     {"P", "preview without ray tracing (GPU)"},
+    {"K; comma, period", "play the motion; one frame back, on"},
     {nullptr, "Scenes and files"},
     {"1 to 9", "the first nine scenes"},
     {"Page Up, Page Down", "previous, next scene"},

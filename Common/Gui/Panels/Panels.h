@@ -22,6 +22,7 @@ namespace rt::gui {
     PANEL(Objects, "objects", "Objects", Side, false, settings.showPanels) \
     PANEL(Sampler, "sampler", "Sampler", Side, false, settings.showPanels) \
     PANEL(Noise, "noise", "Pixel noise", Side, false, settings.showPanels) \
+    PANEL(Motion, "motion", "Motion", Side, false, settings.showPanels) \
     PANEL(Comparison, "comparison", "Comparison", Bottom, true, settings.showComparison) \
     PANEL(Race, "race", "Race", Bottom, true, settings.showRace && !settings.showComparison)
 // clang-format on

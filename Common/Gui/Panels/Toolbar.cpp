@@ -70,7 +70,7 @@ void drawRenderButtons(Gui& gui, bool isNarrow) {
     if (iconButton("stop", Icon::Stop,
                    "Ends the render, of which stays what there is, and gives up what is being loaded",
                    {canStop, "nothing is rendered or loaded"}))
-        gui.session.stop();
+        gui.session.stop(), gui.timeline.giveUp();
     beside();
     if (iconButton("restart", Icon::Restart, "Discards the samples and renders from the beginning (Ctrl+R)",
                    {!isPreview, "ray tracing is off"}))
