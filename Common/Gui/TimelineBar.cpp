@@ -59,10 +59,10 @@ Rect drawTimelineBar(Gui& gui, const Rect& area) {
     ImGui::SetNextWindowSize({area.width, height});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {padding.x, 0.5f * padding.y});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
-    constexpr ImGuiWindowFlags kBar = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                      ImGuiWindowFlags_NoScrollWithMouse;
-    if (ImGui::Begin("##timeline", nullptr, kBar | kNeverDocks)) {
+    constexpr ImGuiWindowFlags kStripFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                             ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                             ImGuiWindowFlags_NoScrollWithMouse;
+    if (ImGui::Begin("##timeline", nullptr, kStripFlags | kNeverDocks)) {
         drawPlayButtons(gui);
         ImGui::SameLine();
         const Disabled still(timeline.whyNot() != nullptr, timeline.whyNot());

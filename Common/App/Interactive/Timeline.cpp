@@ -111,18 +111,18 @@ void Timeline::run(double now) {
         startedAt_ = now;
         startTime_ = time();
     }
-    double seconds = startTime_ + (now - *startedAt_);
+    const double seconds = startTime_ + (now - *startedAt_);
     if (seconds >= motion_.length && !loops_) {
         goTo(motion_.length);
         isPlaying_ = false;
         return;
     }
-    seconds = std::fmod(seconds, motion_.length);
-    const double frame = std::floor(seconds * frameRate_ + kSlack) / frameRate_;
+    startTime_ = std::fmod(seconds, motion_.length);
+    startedAt_ = now;
+    const double frame = std::floor(startTime_ * frameRate_ + kSlack) / frameRate_;
     if (frame == time()) return;
-    const std::optional<double> startedAt = startedAt_; // goes on
     goTo(frame);
-    startedAt_ = startedAt;
+    startedAt_ = now; // goes on
 }
 
 } // namespace rt::app

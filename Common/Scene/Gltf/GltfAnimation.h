@@ -21,6 +21,7 @@ struct NodePose {
     std::optional<glm::dvec4> rotation; // a quaternion of any length, w last
     std::optional<glm::dvec3> scale;
     std::optional<std::vector<double>> weights; // one per morph target
+    bool isPlaced() const { return translation || rotation || scale; }
 };
 
 struct AnimationPose {

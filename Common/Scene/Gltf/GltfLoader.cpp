@@ -175,9 +175,14 @@ class Importer {
         });
     }
 
+    struct Stand {
+        Affine toWorld;
+        bool isMoved; // by the animation
+    };
+
     // Where each posed mesh stands.
-    std::map<PosedMesh, std::vector<Affine>> placeMeshes() {
-        std::map<PosedMesh, std::vector<Affine>> places;
+    std::map<PosedMesh, std::vector<Stand>> placeMeshes() {
+        std::map<PosedMesh, std::vector<Stand>> places;
         for (const GltfNodes::Placed& placed : nodes_.placed()) {
             const tinygltf::Node& node = file_.model.nodes[placed.node];
             if (node.mesh < 0) continue;
@@ -196,14 +201,14 @@ class Importer {
                     ++flattened_;
                     continue;
                 }
-                places[posed].push_back(toWorld);
+                places[posed].push_back({toWorld, posed.skin < 0 && placed.isMoved});
             }
         }
         return places;
     }
 
     void addMeshes() {
-        const std::map<PosedMesh, std::vector<Affine>> places = placeMeshes();
+        const std::map<PosedMesh, std::vector<Stand>> places = placeMeshes();
         std::vector<Surface> surfaces;
         for (const auto& [posed, where] : places) addSurfaces(posed, surfaces);
         parallelFor(0, surfaces.size(), [&](std::size_t i) {
@@ -240,17 +245,19 @@ class Importer {
         return *surface.kept;
     }
 
+    // What the animation moves is in a group in all poses, so that it is called alike in each.
     void place(std::size_t mesh, std::vector<ObjectDesc> surfaces, const Bounds& bounds,
-               const std::vector<Affine>& where, UniqueNames& names) {
-        for (const Affine& toWorld : where) bounds_.add(bounds, toWorld);
+               const std::vector<Stand>& where, UniqueNames& names) {
+        for (const Stand& stand : where) bounds_.add(bounds, stand.toWorld);
         if (where.size() == 1) {
-            if (!isIdentity(where.front())) surfaces = {{GroupDesc{toTransform(where.front()), std::move(surfaces)}}};
+            const auto& [toWorld, isMoved] = where.front();
+            if (isMoved || !isIdentity(toWorld)) surfaces = {{GroupDesc{toTransform(toWorld), std::move(surfaces)}}};
             std::move(surfaces.begin(), surfaces.end(), std::back_inserter(scene_.objects));
             return;
         }
         const std::string name = names.unique(file_.model.meshes[mesh].name, "mesh", mesh);
         scene_.prototypes[name] = std::move(surfaces);
-        for (const Affine& toWorld : where) scene_.objects.push_back({InstanceDesc{name, toTransform(toWorld), {}}});
+        for (const Stand& stand : where) scene_.objects.push_back({InstanceDesc{name, toTransform(stand.toWorld), {}}});
     }
 
     // ---- light ------------------------------------------------------------------------------------------------------

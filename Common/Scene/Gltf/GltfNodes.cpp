@@ -90,21 +90,22 @@ void GltfNodes::place() {
     struct Pending {
         std::size_t node;
         Affine parent;
+        bool isMoved;
     };
     const tinygltf::Model& model = file_.model;
     std::vector<Pending> pending;
-    const auto push = [&](const std::vector<int>& nodes, const Affine& parent) {
+    const auto push = [&](const std::vector<int>& nodes, const Affine& parent, bool isMoved) {
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
-            pending.push_back({static_cast<std::size_t>(*node), parent});
+            pending.push_back({static_cast<std::size_t>(*node), parent, isMoved});
     };
     if (model.scenes.empty()) { // all nodes that are nobody's children
         std::vector<bool> isChild(model.nodes.size(), false);
         for (const tinygltf::Node& node : model.nodes)
             for (const int child : node.children) isChild[static_cast<std::size_t>(child)] = true;
         for (std::size_t i = model.nodes.size(); i-- > 0;)
-            if (!isChild[i]) pending.push_back({i, {}});
+            if (!isChild[i]) pending.push_back({i, {}, false});
     } else {
-        push(model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes, {});
+        push(model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes, {}, false);
     }
     while (!pending.empty()) {
         interruptionPoint();
@@ -114,8 +115,10 @@ void GltfNodes::place() {
         const Affine toWorld = next.parent * localOf(next.node);
         if (!isWithinLimits(toWorld)) file_.fail(placeOfNode(next.node), "its transform exceeds 1e9");
         placeOf_[next.node] = placed_.size();
-        placed_.push_back({next.node, toWorld});
-        push(model.nodes[next.node].children, toWorld);
+        const auto pose = pose_.nodes.find(next.node);
+        const bool isMoved = next.isMoved || (pose != pose_.nodes.end() && pose->second.isPlaced());
+        placed_.push_back({next.node, toWorld, isMoved});
+        push(model.nodes[next.node].children, toWorld, isMoved);
     }
 }
 

@@ -21,6 +21,7 @@ class GltfNodes {
     struct Placed {
         std::size_t node;
         Affine toWorld;
+        bool isMoved; // by the animation, or a node above is
     };
 
     // Throws what poseAt() throws, and InputError naming file and place where nodes form no tree. The file must outlive

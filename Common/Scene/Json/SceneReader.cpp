@@ -195,8 +195,8 @@ std::string readChoice(const JsonNode& node, const std::vector<std::string>& all
 
 namespace {
 
-SceneDesc parse(std::string_view text, const std::string& file, const std::filesystem::path& folder,
-                std::optional<SceneDesc> model, const ModelReader& reader) {
+SceneDesc parsedScene(std::string_view text, const std::string& file, const std::filesystem::path& folder,
+                      std::optional<SceneDesc> model, const ModelReader& reader) {
     const LongJson json(text, file, "objects");
     const LargeJson document = json.document();
     const JsonNode root(*document, file);
@@ -209,16 +209,16 @@ SceneDesc parse(std::string_view text, const std::string& file, const std::files
 
 SceneDesc parseSceneOn(std::string_view text, const std::string& file, const std::filesystem::path& folder,
                        std::optional<SceneDesc> model) {
-    return parse(text, file, folder, std::move(model), {});
+    return parsedScene(text, file, folder, std::move(model), {});
 }
 
 SceneDesc parseSceneAt(std::string_view text, const std::string& file, const std::filesystem::path& folder,
                        const ModelReader& reader) {
-    return parse(text, file, folder, std::nullopt, reader);
+    return parsedScene(text, file, folder, std::nullopt, reader);
 }
 
 SceneDesc parseScene(std::string_view text, const std::string& file, const std::filesystem::path& folder) {
-    return parse(text, file, folder, std::nullopt, {});
+    return parsedScene(text, file, folder, std::nullopt, {});
 }
 
 std::optional<ImportDesc> importIn(std::string_view text, const std::filesystem::path& sceneFile) {

@@ -307,8 +307,8 @@ class PbrtLoader {
         if (!mesh || !needsTangents) return;
         if (const auto* single = std::get_if<Boxed<FloatMeshData>>(&mesh->source))
             mesh->source = (*single)->as<double>();
-        MeshData& data = *std::get<Boxed<MeshData>>(mesh->source);
-        if (!data.uvs.empty()) addTangents(data, 0);
+        MeshData* data = std::get<Boxed<MeshData>>(mesh->source).own(); // the shape was made just now
+        if (data != nullptr && !data->uvs.empty()) addTangents(*data, 0);
     }
 
     // Into the object that is being defined, else into the world.
