@@ -12,6 +12,7 @@
 
 #include "Common/App/Session/Frames.h"
 #include "Common/App/Session/RenderJob.h"
+#include "Common/App/Session/SceneSource.h"
 #include "Common/Image/Checkpoint.h"
 #include "Common/Render/ShutterEngine.h"
 #include "RayTracingCPU/CpuEngine.h"

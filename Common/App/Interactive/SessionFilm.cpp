@@ -1,9 +1,12 @@
 #include "Common/App/Interactive/SessionFilm.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
+#include <span>
 #include <utility>
 
+#include "Common/Core/Hash.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Render/RenderParams.h"
 
@@ -16,7 +19,12 @@ constexpr double kPassSlice = 0.005;      // where the picture is shown as soon 
 } // namespace
 
 ReferenceKey keyOf(const FilmSubject& subject, const RenderSettings& film) {
-    return {subject.scene.hash, subject.camera, film.width, film.height, film.maxDepth};
+    std::uint64_t hash = subject.scene.hash;
+    if (const auto shutter = subject.engine.report().shutter) { // of one instant it is another picture
+        const double interval[] = {shutter->open, shutter->close};
+        hash = hashBytes(std::as_bytes(std::span(interval)), hash);
+    }
+    return {hash, subject.camera, film.width, film.height, film.maxDepth};
 }
 
 SessionFilm::SessionFilm(const SessionSetup& setup, const Mailbox& mailbox, PublishedState& state)

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <string>
 
 #include "Common/Core/Printable.h"
@@ -41,6 +42,13 @@ void drawShutter(app::Timeline& timeline) {
     if (hasOpen || hasClose) timeline.setShutter(shutter.isOpen() ? shutter : scene::Shutter());
 }
 
+// As a shell of Unix takes it for one word, whatever is in it.
+std::string shellWord(const std::string& text) {
+    std::string word = "'";
+    for (const char letter : text) word += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    return word + "'";
+}
+
 // What renders all of the animation without a window.
 std::string sequenceCommand(const Gui& gui) {
     const app::Timeline& timeline = gui.timeline;
@@ -48,10 +56,10 @@ std::string sequenceCommand(const Gui& gui) {
     char numbers[96];
     std::snprintf(numbers, sizeof numbers, " --time 0 --frames 0..%llu --frame-rate %.6g",
                   static_cast<unsigned long long>(last), timeline.frameRate());
-    std::string command =
-        std::string(gui.isGpu ? app::kGpuProgram : app::kCpuProgram) + " --scene '" + gui.state.source + "'" + numbers;
+    std::string command = std::string(gui.isGpu ? app::kGpuProgram : app::kCpuProgram) + " --scene " +
+                          shellWord(gui.state.source) + numbers;
     if (timeline.motion().chosen > 0)
-        command += " --animation '" + timeline.motion().animations[timeline.motion().chosen] + "'";
+        command += " --animation " + shellWord(timeline.motion().animations[timeline.motion().chosen]);
     if (timeline.shutter().isOpen()) {
         std::snprintf(numbers, sizeof numbers, " --shutter %.9g,%.9g", timeline.shutter().open,
                       timeline.shutter().close);
