@@ -96,7 +96,7 @@ TEST_F(InteractiveMotionTest, AnOpenShutterBlurs) {
     ASSERT_TRUE(blurred.report.shutter);
     EXPECT_EQ(blurred.report.shutter->open, 0);
     EXPECT_EQ(blurred.report.shutter->close, 1);
-    EXPECT_EQ(blurred.report.shutter->poses % 16, 0u);
+    EXPECT_GE(blurred.report.shutter->poses, 16u);
     EXPECT_FALSE(blurred.settings.adaptive);
     EXPECT_EQ(blurred.scene->motion.time, 0.5);
     ASSERT_TRUE(shows(session, session.pose(at(0), {})));

@@ -62,7 +62,7 @@ TEST_F(PosedSceneTest, IsWhatIsCompiledAtThatTime) {
 TEST_F(PosedSceneTest, OfAnImportHasItsChanges) {
     saveModel();
     std::ofstream(folder_ / "own.json") << R"({"version": 1, "import": {"file": "model.gltf", "time": 0.5},
-        "changes": [{"object": ["plate #1"], "becomes": []}],
+        "changes": [{"object": ["mesh 2 #1"], "becomes": []}],
         "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 0.25, "material": "plate"}]})";
     const SceneRequest request{(folder_ / "own.json").string()};
     expectPosesOf(request);
