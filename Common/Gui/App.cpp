@@ -74,7 +74,6 @@ class App {
                paths_,
                probeImage_} {
         gui_.recovery.autosave = autosave_.get();
-        gui_.timeline.setFrameRate(options.frameRate);
         gui_.showFirstSteps = !std::exchange(settings_.sawFirstSteps, true);
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
     }

@@ -54,6 +54,7 @@ SessionLink::SessionLink(const app::Options& options, Gui& gui, Presenter& prese
     now_.request = gui.settings.request;
     now_.engine = gui.settings.engine;
     now_.rayTracing = gui.settings.rayTracing;
+    gui.timeline.setFrameRate(options.frameRate);
 }
 
 void SessionLink::take(bool hasFocus) {
