@@ -259,8 +259,9 @@ TEST_F(ShutterTest, AllPosesMustHaveTheFeaturesThatAreForced) {
     model.move(light, "scale", {0, 0, 0}, {1, 1, 1});
     const std::vector<std::string> flags = {"--scene", model.save(path("a.gltf")).string(), "-o", path("a.pfm")};
     ASSERT_EQ(render(joined(flags, {"--spp", "1", "--stats", path("stats.json")})), ExitCode::Done);
+    const nlohmann::json told = statistics();
     std::string names;
-    for (const auto& name : statistics().at("features")) names += (names.empty() ? "" : ",") + name.get<std::string>();
+    for (const auto& name : told.at("features")) names += (names.empty() ? "" : ",") + name.get<std::string>();
     const std::vector<std::string> forced = joined(flags, {"--features", names, "--spp", "64"});
     EXPECT_EQ(failure(forced), "no error");
     const std::string said = "2 --features: the scene also needs";

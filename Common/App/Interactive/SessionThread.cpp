@@ -76,12 +76,10 @@ void SessionThread::apply(Requests requests) {
         if (goesOn && activity_ == Activity::Finished && !film_.isFinished()) setActivity(Activity::Rendering);
         isAnother && !goesOn ? film_.change() : requests.request.reset();
     }
+    takeCamera(requests.camera); // of the scene that there is, before another pose moves what the user has not
     if (requests.scene) adopt(std::move(*requests.scene));
     if (requests.sceneFile) nameScene(*requests.sceneFile);
-    if (requests.camera && requests.camera->first == sceneSerial_ && requests.camera->second != camera_) {
-        camera_ = requests.camera->second;
-        film_.change();
-    }
+    takeCamera(requests.camera);
     if (requests.previewWidth) previewWidth_ = *requests.previewWidth;
     if (requests.changeWhatIsSeen()) previewIsStale_ = true;
     if (requests.preview) switchPreview(*requests.preview);
@@ -99,6 +97,12 @@ void SessionThread::apply(Requests requests) {
         setActivity(Activity::Rendering);
     if (requests.held && std::exchange(isHeld_, *requests.held) && !isHeld_) recordWaiting();
     writeWaiting();
+}
+
+void SessionThread::takeCamera(const std::optional<std::pair<std::uint64_t, scene::CameraDesc>>& camera) {
+    if (!camera || camera->first != sceneSerial_ || camera->second == camera_) return;
+    camera_ = camera->second;
+    film_.change();
 }
 
 // An engine that cannot be had leaves the one before at work.

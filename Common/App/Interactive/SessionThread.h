@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Common/App/Interactive/Mailbox.h"
@@ -28,6 +29,7 @@ class SessionThread {
     // What was asked for.
     void apply(Requests requests);
     void makeEngine(const EngineChoice& choice);
+    void takeCamera(const std::optional<std::pair<std::uint64_t, scene::CameraDesc>>& camera);
     void adopt(LoadedScene loaded);
     bool adoptCamera(const LoadedScene& loaded);
     static std::unique_ptr<Engine> blurring(Engine& engine, const LoadedScene& loaded);
