@@ -258,9 +258,9 @@ bool DeviceDenoiser::run(std::uint64_t samplesOfHalf, std::uint32_t dependentSid
     const auto rows = static_cast<std::uint32_t>(shared::denoisePlaneRows(height_));
     runPass(DenoisePass::Prepare, launch,
             {groupsFor(pitch, shared::kDenoiseColumns), groupsFor(rows, shared::kDenoiseRows), 1});
-    mean(shared::kMeansOfTones);
-    if (samplesOfHalf < shared::kDenoiseRawGuideSamples)
-        runPass(DenoisePass::Guide, launch, {groups().width, groups().height, 2});
+    const bool hasRawGuides = samplesOfHalf >= shared::kDenoiseRawGuideSamples;
+    mean(hasRawGuides ? shared::kMeansToGuides : shared::kMeansOfTones);
+    if (!hasRawGuides) runPass(DenoisePass::Guide, launch, {groups().width, groups().height, 2});
     runPass(DenoisePass::Features, launch,
             {groupsFor(width_, shared::kDenoiseTile), groupsFor(height_, shared::kDenoiseTile), 1});
     if (!fit(launch, cancel)) return false;

@@ -29,12 +29,15 @@ void loadTones(ivec2 first, int half_) {
 
 void measure(int down) {
     barrier(); // those before have been read
-    for (int i = int(gl_LocalInvocationIndex); i < kOffsets * kPatchRows * kPatchColumns; i += kInvocations) {
-        int across = i % kOffsets - kDenoiseGuideReach, place = i / kOffsets;
+    for (int place = int(gl_LocalInvocationIndex); place < kPatchRows * kPatchColumns; place += kInvocations) {
         int here = (place / kPatchColumns + kDenoiseGuideReach) * kColumns + place % kPatchColumns + kDenoiseGuideReach;
-        vec4 a = tones[here], b = tones[here + down * kColumns + across];
-        vec3 difference = a.rgb - b.rgb;
-        distances[i] = denoiseDistance(dot(difference, difference), a.w, b.w);
+        int there = here + down * kColumns - kDenoiseGuideReach;
+        vec4 tone = tones[here];
+        for (int i = 0; i < kOffsets; i++) {
+            vec4 other = tones[there + i];
+            vec3 difference = tone.rgb - other.rgb;
+            distances[place * kOffsets + i] = denoiseDistance(dot(difference, difference), tone.w, other.w);
+        }
     }
     barrier();
 }

@@ -8,9 +8,8 @@
 layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
 
 void main() {
-    bool ofVariance =
-        launch.use == kMeansOfTones || launch.use == kMeansToTones || launch.use == kMeansOfHistory;
-    int reach = ofVariance ? kDenoiseVarianceReach : kDenoiseErrorReach;
+    bool ofErrors = launch.use == kMeansAsTheyAre || launch.use == kMeansPositive;
+    int reach = ofErrors ? kDenoiseErrorReach : kDenoiseVarianceReach;
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (!isInside(pixel)) return;
     ivec2 first = max(pixel - reach, ivec2(0));
@@ -28,10 +27,9 @@ void main() {
     ivec2 size = last - first + 1;
     vec4 mean = sum / float(size.x * size.y);
     if (launch.use == kMeansOfTones) {
-        for (int half_ = 0; half_ < 2; half_++) {
-            launch.filtered.at[planeIndex(pixel, half_)].w = mean.x;
-            launch.guides.at[planeIndex(pixel, half_)].w = mean.x;
-        }
+        for (int half_ = 0; half_ < 2; half_++) launch.filtered.at[planeIndex(pixel, half_)].w = mean.x;
+    } else if (launch.use == kMeansToGuides) {
+        for (int half_ = 0; half_ < 2; half_++) launch.guides.at[planeIndex(pixel, half_)].w = mean.x;
     } else if (launch.use == kMeansToTones) {
         for (uint half_ = 0u; half_ < 2u; half_++)
             launch.guides.at[half_ * pixelCount() + pixelIndex(pixel)].w = mean.x;

@@ -31,7 +31,8 @@ const uint kDenoiseMixSums = 8u;                                // from here on 
 
 // What a pass that averages over squares does with the means.
 const uint kMeansAsTheyAre = 0u;
-const uint kMeansOfTones = 1u;   // the first component is the variance of a tone of either half
+const uint kMeansOfTones = 1u;   // the first component is the variance of a tone of either half,
+const uint kMeansToGuides = 5u;  // and of both guides, where tones are guides
 const uint kMeansPositive = 2u;  // negative ones become 0
 const uint kMeansToTones = 3u;   // the same for the tones of LiveLaunch
 const uint kMeansOfHistory = 4u; // as they are, over the pixels that a variance is averaged over
