@@ -220,7 +220,8 @@ void App::turn() {
     viewports_.take();
     if (!dropped_.empty()) {
         const std::string& file = dropped_.front();
-        isMaterialFile(file) ? (void)(gui_.materials.droppedFile = file) : gui_.openScene(file);
+        const bool isPart = isMaterialFile(file) || isImageFile(file);
+        (isPart ? gui_.materials.droppedFile : gui_.added.droppedScene) = file;
         dropped_.clear();
     }
     const auto [width, height] = window_.framebufferSize();
@@ -291,6 +292,7 @@ void App::drawFrame(bool isShown) {
     followEditing(gui_);
     followRecovery(gui_);
     followMaterials(gui_);
+    followAddedFiles(gui_);
     followSampler(gui_);
     followNoisyPixel(gui_);
     drawInterface();
@@ -352,6 +354,7 @@ void App::drawInterface() {
     drawFirstSteps(gui_, area);
     drawUnsaved(gui_);
     drawRecovery(gui_);
+    endDrops(gui_);
     if (gui_.browser.isOpen())
         if (const auto file = gui_.browser.draw(settings_.recent)) gui_.take(*file);
 }

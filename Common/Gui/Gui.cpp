@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <imgui.h>
@@ -243,12 +245,20 @@ void Gui::browse(BrowseFor what) {
     std::error_code none;
     switch (what) {
         case BrowseFor::Scene:
-            request = {"Open a scene", "Open", {".json", ".obj", ".gltf", ".glb", ".pbrt", ".gz"}, {}, ""};
+        case BrowseFor::Model:
+            request = {what == BrowseFor::Scene ? "Open a scene" : "Add a model",
+                       what == BrowseFor::Scene ? "Open" : "Add",
+                       {".json", ".obj", ".gltf", ".glb", ".pbrt", ".gz"},
+                       {},
+                       ""};
             if (fs::is_regular_file(state.source, none)) {
                 request.folder = folderOf(state.source);
             } else if (const auto assets = assetFolders(); !assets.empty()) {
                 request.folder = assets.front() / "scenes";
             }
+            break;
+        case BrowseFor::Image:
+            request = {"Choose an image", "Choose", {std::begin(kImageKinds), std::end(kImageKinds)}, {}, ""};
             break;
         case BrowseFor::Reference:
             request = {"Load a reference", "Load", {".exr", ".hdr", ".pfm"}, saveFolder(settings.saveFolder), ""};
@@ -283,6 +293,11 @@ void Gui::take(const std::filesystem::path& file) {
     switch (browseFor) {
         case BrowseFor::Scene:
             return openScene(file.string());
+        case BrowseFor::Model:
+            return addModel(*this, file.string());
+        case BrowseFor::Image:
+            if (editor.document() != nullptr) std::exchange(added.takeImage, {})(*this, file.string());
+            return;
         case BrowseFor::Reference:
             return session.loadReference(file.string());
         case BrowseFor::Picture:

@@ -17,6 +17,7 @@
 #include "Common/App/Interactive/SceneEditor.h"
 #include "Common/App/Interactive/SceneExport.h"
 #include "Common/App/Interactive/Timeline.h"
+#include "Common/Gui/AddedFiles.h"
 #include "Common/Gui/FileBrowser.h"
 #include "Common/Gui/FrameTimer.h"
 #include "Common/Gui/Inspector.h"
@@ -43,7 +44,7 @@ struct PictureView {
 };
 
 // What the file browser is open for.
-enum class BrowseFor { Scene, Reference, Picture, Export, SaveScene, OpenMaterial, SaveMaterial };
+enum class BrowseFor { Scene, Model, Image, Reference, Picture, Export, SaveScene, OpenMaterial, SaveMaterial };
 
 // A part of the window, in its units, and the file that it is to be saved to.
 struct SavedPart {
@@ -80,6 +81,7 @@ struct Gui {
     app::Timeline timeline;
     SceneEditing editing;
     MaterialTools materials;
+    AddedFiles added;
     Recovery recovery;
     SamplerView sampling;
     NoisyPixel noise;

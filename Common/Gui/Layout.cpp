@@ -78,6 +78,13 @@ void drawDocked(std::span<const Panel> panels, const Edges& edges) {
     }
 }
 
+// As little as that takes; of what is higher than the window its top.
+void scrollToSee(float top, float bottom) {
+    const float corner = ImGui::GetWindowPos().y, height = ImGui::GetWindowHeight();
+    if (bottom <= corner + height) return;
+    ImGui::SetScrollFromPosY(std::min(top, bottom - height) - corner, 0);
+}
+
 void drawSide(std::span<const Panel> panels, const Rect& area, float scale, const Edges& edges) {
     constexpr float kHeaderStays = 20; // heights of the font: in lower windows the header scrolls with the panels
     const ImGuiViewport* viewport = ImGui::GetMainViewport();
@@ -91,7 +98,9 @@ void drawSide(std::span<const Panel> panels, const Rect& area, float scale, cons
     if (!headerStays) edges.header();
     for (const Panel& panel : panels) {
         if (!panel.isShown || panel.place != Panel::Place::Side) continue;
-        ImGui::SetNextItemOpen(*panel.isOpen);
+        const float top = ImGui::GetCursorScreenPos().y;
+        const bool wasOpen = *panel.isOpen;
+        ImGui::SetNextItemOpen(wasOpen);
         *panel.isOpen = ImGui::CollapsingHeader(panel.title);
         if (panel.reveal) ImGui::SetScrollHereY(0);
         if (!*panel.isOpen) continue;
@@ -101,6 +110,7 @@ void drawSide(std::span<const Panel> panels, const Rect& area, float scale, cons
         ImGui::Unindent(4 * scale);
         ImGui::PopID();
         ImGui::Spacing();
+        if (!wasOpen) scrollToSee(top, ImGui::GetCursorScreenPos().y);
     }
     ImGui::EndChild();
     ImGui::End();

@@ -21,26 +21,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kNoSurface = "What is there has no material of its own";
 
-void askPicture(Gui& gui, const std::array<std::uint32_t, 2>& pixel, MaterialTools::Take take) {
-    const image::Image* picture = gui.state.picture.image.get();
-    if (picture == nullptr || !gui.state.scene) return;
-    gui.editor.begin();
-    const SceneEditing::Click place{gui.camera.camera(), pixel, {picture->width, picture->height}, false};
-    gui.materials.question = MaterialTools::Question{place, std::move(take)};
-}
-
 // Once the description of the scene is there.
 void askDescription(Gui& gui, MaterialTools::Take take) {
     gui.editor.begin();
-    gui.materials.question = MaterialTools::Question{std::nullopt, std::move(take)};
-}
-
-// The name in the description of the material that an object shows; empty: it is of a file of the object's own.
-std::string materialSeen(const scene::SceneDesc& scene, const scene::ObjectPath& path, const std::string& shown) {
-    const scene::ObjectDesc* object = findObject(scene, path);
-    const std::string* own = object != nullptr ? materialNameOf(*object) : nullptr;
-    if (own != nullptr && !own->empty()) return *own;
-    return scene.materials.contains(shown) ? shown : "";
+    gui.materials.question = MaterialTools::Question{std::nullopt, std::move(take), {}};
 }
 
 void giveSelection(Gui& gui, const std::string& material) {
@@ -79,6 +63,22 @@ void takeMaterials(Gui& gui, const std::string& file, const std::vector<scene::O
 
 } // namespace
 
+void askPicture(Gui& gui, const std::array<std::uint32_t, 2>& pixel, MaterialTools::Take take,
+                std::function<void(Gui&)> takeSky) {
+    const image::Image* picture = gui.state.picture.image.get();
+    if (picture == nullptr || !gui.state.scene) return;
+    gui.editor.begin();
+    const SceneEditing::Click place{gui.camera.camera(), pixel, {picture->width, picture->height}, false};
+    gui.materials.question = MaterialTools::Question{place, std::move(take), std::move(takeSky)};
+}
+
+std::string materialSeen(const scene::SceneDesc& scene, const scene::ObjectPath& path, const std::string& shown) {
+    const scene::ObjectDesc* object = findObject(scene, path);
+    const std::string* own = object != nullptr ? materialNameOf(*object) : nullptr;
+    if (own != nullptr && !own->empty()) return *own;
+    return scene.materials.contains(shown) ? shown : "";
+}
+
 void followMaterials(Gui& gui) {
     MaterialTools& tools = gui.materials;
     if (tools.isPicking && !gui.editor.selection()) tools.isPicking = false;
@@ -87,7 +87,7 @@ void followMaterials(Gui& gui) {
     if (!question.place) return question.take(gui, {}, {});
     const auto& [camera, pixel, size, isAdded] = *question.place;
     const auto surface = app::visibleSurface(*gui.state.scene, camera, {size[0], size[1]}, {pixel[0], pixel[1]});
-    if (!surface) return gui.say("There is no object");
+    if (!surface) return question.takeSky ? question.takeSky(gui) : gui.say("There is no object");
     question.take(gui, pathOfLeaf(gui.editor.document()->scene(), surface->object),
                   gui.state.scene->materialNames[surface->material]);
 }
@@ -114,6 +114,7 @@ void giveMaterial(Gui& gui, const std::vector<scene::ObjectPath>& objects, const
 
 void dropMaterial(Gui& gui, const std::optional<std::array<std::uint32_t, 2>>& pixel) {
     if (const std::string file = std::exchange(gui.materials.droppedFile, {}); !file.empty()) {
+        if (isImageFile(file)) return pixel ? dropImage(gui, file, *pixel) : void(gui.added.droppedImage = file);
         const auto open = [file](Gui& g, const scene::ObjectPath& path, const std::string&) {
             takeMaterials(g, file, {path});
         };

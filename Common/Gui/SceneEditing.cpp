@@ -171,7 +171,10 @@ void deleteSelection(Gui& gui) {
     if (!gui.editor.selection() || gui.editing.tool) return;
     const std::vector<scene::ObjectPath> paths = gui.editor.selected().paths();
     gui.editor.select(std::nullopt);
-    if (!editScene(gui, "Delete" + ofHowMany(paths.size()), removed(paths), false))
+    std::vector<scene::SceneEdit> edits = removed(paths);
+    for (scene::SceneEdit& edit : app::editsToDrop(gui.editor.document()->scene(), paths))
+        edits.push_back(std::move(edit));
+    if (!editScene(gui, "Delete" + ofHowMany(paths.size()), std::move(edits), false))
         gui.editor.select(paths, paths.back());
 }
 

@@ -47,12 +47,17 @@ void editReal(double& value, const char* pattern) {
 }
 
 bool isNextRowMarked = false;
+float roomInNextRow = 0;
 const char* whyDisabled = nullptr; // of the rows that are drawn; null: they are not, or it is not said
 
 } // namespace
 
 void markNextRow(bool isChanged) {
     isNextRowMarked = isChanged;
+}
+
+void leaveRoomInNextRow(float width) {
+    roomInNextRow = width;
 }
 
 Disabled::Disabled(bool isOn, const char* why) : isOn_(isOn), outer_(whyDisabled) {
@@ -101,7 +106,7 @@ void row(const char* label, const char* tip) {
     // A long label moves its control to the right rather than lie under it.
     const float column = ImGui::GetCursorStartPos().x + kLabelShare * ImGui::GetWindowContentRegionMax().x;
     ImGui::SameLine(std::max(column, end));
-    ImGui::SetNextItemWidth(-1);
+    ImGui::SetNextItemWidth(std::min(-1.0f, -std::exchange(roomInNextRow, 0.0f)));
 }
 
 void wrapped(const std::string& text, const ImVec4& color) {

@@ -13,6 +13,8 @@ namespace rt::gui {
 void row(const char* label, const char* tip);
 // The next row's setting is not at its default: its label says so.
 void markNextRow(bool isChanged);
+// The next row's control leaves that width free to its right.
+void leaveRoomInNextRow(float width);
 void tooltip(const char* text);     // of the item before
 void explainDisabled();             // likewise, where it is grey: why
 void note(const std::string& text); // dimmed and wrapped

@@ -14,18 +14,12 @@ namespace {
 
 using LoadModel = SceneDesc (*)(const std::filesystem::path&, const Moment&);
 
-SceneDesc loadAnimatedModel(const std::filesystem::path& path, const Moment& moment) {
-    return AnimatedModel(path).at(moment);
-}
-
-SceneDesc loadObjModel(const std::filesystem::path& path, const Moment& moment) {
+SceneDesc loadObjAlone(const std::filesystem::path& path, const Moment& moment) {
     SceneDesc scene = loadObjScene(path);
     noticeStandstill(moment, scene.notices);
-    addStudioIfUnlit(scene, boundsOfMeshes(scene));
     return scene;
 }
 
-// Which says what light there is.
 SceneDesc loadPbrt(const std::filesystem::path& path, const Moment& moment) {
     SceneDesc scene = loadPbrtScene(path);
     noticeStandstill(moment, scene.notices);
@@ -33,9 +27,9 @@ SceneDesc loadPbrt(const std::filesystem::path& path, const Moment& moment) {
 }
 
 const std::map<std::string, LoadModel>& modelLoaders() {
-    static const std::map<std::string, LoadModel> loaders = {{".gltf", loadAnimatedModel},
-                                                             {".glb", loadAnimatedModel},
-                                                             {".obj", loadObjModel},
+    static const std::map<std::string, LoadModel> loaders = {{".gltf", loadGltfScene},
+                                                             {".glb", loadGltfScene},
+                                                             {".obj", loadObjAlone},
                                                              {".pbrt", loadPbrt},
                                                              {".pbrt.gz", loadPbrt}};
     return loaders;
@@ -58,6 +52,14 @@ bool isGltfFile(const std::filesystem::path& path) {
 }
 
 SceneDesc loadModelFile(const std::filesystem::path& path, const Moment& moment) {
+    if (isGltfFile(path)) return AnimatedModel(path).at(moment);
+    SceneDesc scene = loadModelAlone(path, moment);
+    const bool saysItsLight = kindOfFile(path) != ".obj"; // pbrt does, and be it none
+    if (!saysItsLight) addStudioIfUnlit(scene, boundsOfMeshes(scene));
+    return scene;
+}
+
+SceneDesc loadModelAlone(const std::filesystem::path& path, const Moment& moment) {
     return modelLoaders().at(kindOfFile(path))(path, moment);
 }
 

@@ -20,6 +20,9 @@ bool isModelFile(const std::filesystem::path& path); // by its ending
 // UsageError for an animation that there is not.
 SceneDesc loadModelFile(const std::filesystem::path& path, const Moment& moment);
 
+// Likewise, without a studio.
+SceneDesc loadModelAlone(const std::filesystem::path& path, const Moment& moment);
+
 bool isGltfFile(const std::filesystem::path& path); // by its ending
 
 // A glTF file's scene at any time of its animations; it is read once. What surrounds it follows from the start of the

@@ -350,6 +350,14 @@ struct TargetDesc {
     bool operator==(const TargetDesc&) const = default;
 };
 
+// A file of glTF, OBJ or pbrt, or a scene file, that the scene has taken in: AddedModels.h.
+struct ModelDesc {
+    std::string file;
+    std::string animation; // by name; empty: the first
+    double time = 0;       // of it, in seconds
+    bool operator==(const ModelDesc&) const = default;
+};
+
 struct SceneDesc {
     std::string id; // of a built-in scene, or the name of the file; not part of a scene file
     std::string title;
@@ -360,6 +368,7 @@ struct SceneDesc {
     std::map<std::string, MaterialDesc> materials;
     std::map<std::string, std::vector<ObjectDesc>> prototypes; // what instances refer to
     std::vector<ObjectDesc> objects;
+    std::map<std::string, ModelDesc> models; // where a part of what has names comes from
     std::vector<TargetDesc> importanceTargets;
     RenderDefaults render;
     std::vector<std::string> notices; // of reading it, one line each; not part of a scene file

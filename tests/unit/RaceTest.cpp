@@ -1,5 +1,6 @@
 // Whose turn it is in a race, who leads, and what is kept of it.
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <vector>
@@ -260,12 +261,18 @@ TEST(RaceFiles, TheSuiteRepeatsTheEntrants) {
     EXPECT_EQ(bench::keyOf(base), bench::keyOf(configs[0]));
 }
 
+TEST(RaceFiles, AnEditedSceneIsNamedByItsFile) {
+    RaceState state = raceOf(twoEntrants().entrants);
+    state.work.request.edits = 1;
+    EXPECT_EQ(whyNoSuite(state), nullptr);
+    const std::string file = (std::filesystem::current_path() / "race-scene.json").string(); // which is none yet
+    const bench::Suite suite = bench::parseSuite(raceSuite(state, false, file), "race.json");
+    for (const bench::Config& config : bench::combinations(suite.experiments.at(0), 4)) EXPECT_EQ(config.scene, file);
+}
+
 TEST(RaceFiles, WhatASuiteCannotSayIsTold) {
     const RaceState plain = raceOf(twoEntrants().entrants);
     RaceState state = plain;
-    state.work.request.edits = 1;
-    EXPECT_NE(whyNoSuite(state), nullptr);
-    state = plain;
     state.work.request.moment.time = 0.5;
     EXPECT_NE(whyNoSuite(state), nullptr);
     state = plain;

@@ -42,7 +42,6 @@ Json variantOf(const RaceLane& lane, bool isGpu) {
 
 const char* whyNoSuite(const RaceState& race) {
     const SceneRequest& request = race.work.request;
-    if (request.edits > 0) return "the scene was edited: save it and race in the file";
     if (request.moment != scene::Moment()) return "a suite knows no moment of an animation";
     if (!request.oneSidedLights) return "in suites lights are one-sided where their scene does not say";
     if (race.work.settings.features) return "the features were forced by --features";
@@ -80,12 +79,12 @@ std::string raceTable(const RaceState& race, bool isGpu) {
     return out.str();
 }
 
-std::string raceSuite(const RaceState& race, bool isGpu) {
+std::string raceSuite(const RaceState& race, bool isGpu, const std::string& sceneFile) {
     const RaceWork& work = race.work;
-    std::error_code none; // built-in scenes are no files
-    const bool isFile = std::filesystem::exists(work.request.source, none);
-    const std::string source =
-        isFile ? std::filesystem::absolute(work.request.source, none).string() : work.request.source;
+    const std::string named = sceneFile.empty() ? work.request.source : sceneFile;
+    std::error_code none; // built-in scenes are no files, and one that is being written is none yet
+    const bool isFile = !sceneFile.empty() || std::filesystem::exists(named, none);
+    const std::string source = isFile ? std::filesystem::absolute(named, none).string() : named;
     Json variants = Json::array(), seconds = Json::array();
     for (const RaceLane& lane : race.lanes) variants.push_back(variantOf(lane, isGpu));
     for (int i = kSteps - 1; i >= 0; --i)

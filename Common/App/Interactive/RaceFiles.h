@@ -13,6 +13,7 @@ std::string raceTable(const RaceState& race, bool isGpu);
 // Why no suite can repeat it; null: one can.
 const char* whyNoSuite(const RaceState& race);
 // A suite of ray-tracing-bench. Entrants whose engine is not known yet have the default one of their program.
-std::string raceSuite(const RaceState& race, bool isGpu);
+// `sceneFile`: what has the edited scene; empty: the scene is as its source has it.
+std::string raceSuite(const RaceState& race, bool isGpu, const std::string& sceneFile = {});
 
 } // namespace rt::app

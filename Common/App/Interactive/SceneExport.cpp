@@ -5,6 +5,8 @@
 #include <memory>
 #include <utility>
 
+#include "Common/App/Interactive/SceneFileText.h"
+#include "Common/App/Session/Outputs.h"
 #include "Common/App/Session/SceneOutput.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Interruption.h"
@@ -16,25 +18,35 @@ SceneExport::~SceneExport() {
     callOff_ = true;
 }
 
-void SceneExport::run(std::function<scene::SceneDesc()> load, const std::string& source, const std::string& assetsBelow,
-                      const std::string& file) {
+void SceneExport::run(std::function<std::vector<std::string>()> write, const std::string& source,
+                      const std::string& assetsBelow, const std::string& file) {
     if (result_.valid()) result_.wait();
-    result_ = std::async(std::launch::async, [this, load = std::move(load), source, assetsBelow, file] {
+    result_ = std::async(std::launch::async, [this, write = std::move(write), source, assetsBelow, file] {
         const Interruptible interruptible(callOff_);
         const ReadsBelow confined(assetsBelow, source);
-        return Result{file, writeScene(file, load())};
+        return Result{file, write()};
     });
 }
 
 void SceneExport::start(const std::string& source, const scene::Moment& moment, const std::string& assetsBelow,
                         const std::string& file) {
-    run([source, moment] { return loadScene(source, moment); }, source, assetsBelow, file);
+    run([source, moment, file] { return writeScene(file, loadScene(source, moment)); }, source, assetsBelow, file);
 }
 
 void SceneExport::start(scene::SceneDesc scene, const std::string& source, const std::string& assetsBelow,
                         const std::string& file) {
     const auto kept = std::make_shared<scene::SceneDesc>(std::move(scene));
-    run([kept] { return std::move(*kept); }, source, assetsBelow, file);
+    run([kept, file] { return writeScene(file, std::move(*kept)); }, source, assetsBelow, file);
+}
+
+void SceneExport::startEdited(scene::SceneDesc scene, const std::string& source, const scene::Moment& moment,
+                              const std::string& assetsBelow, const std::string& file) {
+    const auto kept = std::make_shared<const scene::SceneDesc>(std::move(scene));
+    const auto write = [kept, source, moment, file] {
+        writeText(file, sceneFileText(*kept, source, moment, file));
+        return std::vector<std::string>();
+    };
+    run(write, source, assetsBelow, file);
 }
 
 std::optional<SceneExport::Result> SceneExport::takeResult() {

@@ -26,6 +26,9 @@ class SceneExport {
     // Likewise one that is at hand, whatever has become of its source.
     void start(scene::SceneDesc scene, const std::string& source, const std::string& assetsBelow,
                const std::string& file);
+    // What is edited, as SceneFileText.h says.
+    void startEdited(scene::SceneDesc scene, const std::string& source, const scene::Moment& moment,
+                     const std::string& assetsBelow, const std::string& file);
 
     struct Result {
         std::string file;
@@ -35,8 +38,8 @@ class SceneExport {
     std::optional<Result> takeResult();
 
   private:
-    void run(std::function<scene::SceneDesc()> load, const std::string& source, const std::string& assetsBelow,
-             const std::string& file);
+    void run(std::function<std::vector<std::string>()> write, const std::string& source,
+             const std::string& assetsBelow, const std::string& file);
 
     std::atomic<bool> callOff_{false};
     std::future<Result> result_;

@@ -28,13 +28,11 @@ std::optional<scene::ImportDesc> importBehind(const fs::path& source, const scen
 std::string sceneFileText(const scene::SceneDesc& scene, const std::string& source, const scene::Moment& moment,
                           const std::string& file) {
     try {
-        if (std::optional<scene::ImportDesc> import = importBehind(source, moment)) {
-            scene::SceneDesc model = scene::loadModelFile(import->file, import->moment);
+        const std::optional<scene::ImportDesc> import = importBehind(source, moment);
+        if (import || !scene.models.empty()) {
             std::error_code error;
             const fs::path folder = fs::absolute(file, error).parent_path();
-            const fs::path beside = import->file.lexically_relative(folder);
-            if (!error && !beside.empty()) import->file = beside; // empty: on another drive
-            return scene::toJson(scene, *import, std::move(model));
+            return scene::toJson(scene, import, scene::baseOf(import, scene.models), error ? fs::path() : folder);
         }
     } catch (const Error&) { // what is saved must not depend on it
     }

@@ -1,9 +1,14 @@
 // The material of what is selected: its fields follow from the table of materials.
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "Common/Core/Printable.h"
+#include "Common/Gui/Icons.h"
 #include "Common/Gui/Panels/ObjectFields.h"
 #include "Common/Gui/Widgets.h"
 #include "Common/Scene/Edit/EditCheck.h"
@@ -27,32 +32,106 @@ std::string titled(const char* name) {
     return title;
 }
 
-bool colorField(const std::string& label, const char* help, scene::ColorOrTexture& source) {
-    if (auto* color = std::get_if<glm::dvec3>(&source)) return inputColor(label.c_str(), help, *color);
-    row(label.c_str(), help);
-    ImGui::TextDisabled("texture %s", std::get<std::string>(source).c_str());
-    return false;
-}
-
 bool numberField(const std::string& label, const char* help, double& value, double minimum, double maximum) {
     constexpr double kLongest = 1e3; // of a slider: a field of text for what has no end
     if (maximum - minimum > kLongest) return inputReal(label.c_str(), help, value, minimum, maximum, "%.5g");
     return sliderReal(label.c_str(), help, value, minimum, maximum, "%.3f");
 }
 
+// The material that is drawn, and what comes of its rows beside other numbers.
+struct MaterialRows {
+    Gui& gui;
+    const std::string& name;
+    std::vector<std::string> freed{};       // textures that a row refers to no more
+    std::optional<TextureSlot> droppedOn{}; // which gets an image
+    std::string droppedImage{};
+};
+
+// Behind the row of a colour or a number: an image in its place. `sources`: of the material.
+template <typename Find>
+void drawImageButton(MaterialRows& rows, const std::string& label, bool isColor, const Find& find) {
+    using Source = std::remove_pointer_t<decltype(find(std::declval<scene::MaterialDesc&>()))>;
+    const auto set = [find](scene::MaterialDesc& material, const std::string& texture) {
+        Source& source = *find(material);
+        if constexpr (std::is_same_v<Source, scene::NumberOrTexture>)
+            source = {1, texture, scene::Channel::Red};
+        else
+            source = texture;
+    };
+    const TextureSlot slot{rows.name, isColor, set};
+    if (const auto file = takeDroppedImage(rows.gui)) {
+        rows.droppedOn = slot;
+        rows.droppedImage = *file;
+    }
+    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    if (iconButton(label.c_str(), Icon::Open, "From an image, by a click or by a drop onto this row"))
+        askImage(rows.gui, [slot](Gui& gui, const std::string& file) { setTexture(gui, slot, file); });
+}
+
+float imageButtonRoom() {
+    return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
+}
+
+// What stands in place of the control; whether the texture is to go.
+bool drawTextureName(const std::string& label, const char* help, const std::string& texture) {
+    row(label.c_str(), help);
+    const float room = ImGui::GetContentRegionAvail().x - 2 * imageButtonRoom();
+    const float left = ImGui::GetCursorPosX();
+    ImGui::PushID(label.c_str());
+    ImGui::BeginGroup(); // above all of which an image can be let go
+    ImGui::TextDisabled("%s", elided("texture " + texture, room).c_str());
+    tooltip(printable(texture).c_str());
+    ImGui::SameLine(left + room + ImGui::GetStyle().ItemInnerSpacing.x);
+    const bool isRemoved = iconButton("none", Icon::Close, "One value in place of the texture");
+    ImGui::EndGroup();
+    ImGui::PopID();
+    return isRemoved;
+}
+
+template <typename Find>
+bool colorField(MaterialRows& rows, const std::string& label, const char* help, scene::ColorOrTexture& source,
+                const Find& find) {
+    bool changed = false;
+    if (const auto* texture = std::get_if<std::string>(&source)) {
+        if (drawTextureName(label, help, *texture)) {
+            rows.freed.push_back(*texture);
+            source = glm::dvec3(0.8);
+            changed = true;
+        }
+    } else {
+        leaveRoomInNextRow(imageButtonRoom());
+        changed = inputColor(label.c_str(), help, std::get<glm::dvec3>(source));
+    }
+    drawImageButton(rows, label, true, find);
+    return changed;
+}
+
 // Of one parameter of a principled surface, whatever it is.
+template <typename Member>
 struct PrincipledField {
+    MaterialRows& rows;
     const scene::SceneParameter& parameter;
+    const Member member;
     const std::string label = titled(parameter.name);
     const char* const help = tipOf(parameter.help);
 
-    bool operator()(scene::NumberOrTexture& value) const {
-        if (value.texture.empty()) return numberField(label, help, value.factor, 0, 1);
-        row(label.c_str(), help);
-        ImGui::TextDisabled("texture %s", value.texture.c_str());
-        return false;
+    auto find() const {
+        return [member = member](scene::MaterialDesc& material) { return &(material.principled.*member); };
     }
-    bool operator()(scene::ColorOrTexture& value) const { return colorField(label, help, value); }
+    bool operator()(scene::NumberOrTexture& value) const {
+        bool changed = false;
+        if (value.texture.empty()) {
+            leaveRoomInNextRow(imageButtonRoom());
+            changed = numberField(label, help, value.factor, 0, 1);
+        } else if (drawTextureName(label, help, value.texture)) {
+            rows.freed.push_back(value.texture);
+            value = {std::abs(value.factor), {}, scene::Channel::Red};
+            changed = true;
+        }
+        drawImageButton(rows, label, false, find());
+        return changed;
+    }
+    bool operator()(scene::ColorOrTexture& value) const { return colorField(rows, label, help, value, find()); }
     bool operator()(glm::dvec3& value) const { return inputColor(label.c_str(), help, value); }
     bool operator()(double& value) const {
         const double maximum = value <= 4 ? std::min(parameter.maximum, 4.0) : parameter.maximum;
@@ -63,11 +142,13 @@ struct PrincipledField {
     bool operator()(std::optional<double>&) const { return false; } // what is mostly left out
 };
 
-bool drawNumbers(scene::MaterialDesc& material) {
+bool drawNumbers(MaterialRows& rows, scene::MaterialDesc& material) {
     bool changed = false;
     const scene::MaterialType& type = scene::materialType(material.kind);
-    if (const scene::MaterialParameter* color = colorOf(type))
-        changed |= colorField(titled(color->name), tipOf(color->help), material.albedo);
+    if (const scene::MaterialParameter* color = colorOf(type)) {
+        const auto find = [](scene::MaterialDesc& other) { return &other.albedo; };
+        changed |= colorField(rows, titled(color->name), tipOf(color->help), material.albedo, find);
+    }
     forEachNumber(type, [&](const scene::MaterialParameter& parameter, std::size_t i) {
         double value = material.parameters[i].value_or(parameter.usual);
         if (!numberField(titled(parameter.name), tipOf(parameter.help), value, parameter.minimum, parameter.maximum))
@@ -77,10 +158,19 @@ bool drawNumbers(scene::MaterialDesc& material) {
     });
     if (material.kind == scene::MaterialKind::Principled)
         scene::forEachPrincipledParameter([&](const scene::SceneParameter& parameter, auto member) {
-            changed |= PrincipledField{parameter}(material.principled.*member);
+            changed |= PrincipledField<decltype(member)>{rows, parameter, member}(material.principled.*member);
         });
     changed |= inputLight("Emission", "Radiance that the surface gives off", material.emission);
     return changed;
+}
+
+// Textures that nothing else refers to go with it.
+std::vector<scene::SceneEdit> editsOf(const MaterialRows& rows, const scene::SceneDesc& scene,
+                                      scene::MaterialDesc material) {
+    std::vector<scene::SceneEdit> edits{scene::SetMaterial{rows.name, std::move(material)}};
+    for (const std::string& texture : rows.freed)
+        if (scene::textureUses(scene, texture) == 1) edits.push_back(scene::SetTexture{texture, std::nullopt});
+    return edits;
 }
 
 bool drawKind(scene::MaterialDesc& material) {
@@ -157,8 +247,12 @@ void drawMaterialFields(Gui& gui, const scene::ObjectPath& path) {
         drawUnique(gui, name);
         scene::MaterialDesc material = scene.materials.at(name);
         const bool isOther = drawKind(material);
-        if (drawNumbers(material) || isOther)
-            editScene(gui, "Material " + name, {scene::SetMaterial{name, material}}, !isOther);
+        MaterialRows rows{gui, name};
+        const bool changed = drawNumbers(rows, material) || isOther;
+        if (rows.droppedOn)
+            setTexture(gui, *rows.droppedOn, rows.droppedImage);
+        else if (changed)
+            editScene(gui, "Material " + name, editsOf(rows, scene, material), !isOther && rows.freed.empty());
     }
     ImGui::PopID();
 }

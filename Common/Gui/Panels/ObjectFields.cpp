@@ -1,9 +1,13 @@
 #include "Common/Gui/Panels/ObjectFields.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "Common/Core/Printable.h"
 #include "Common/Gui/Widgets.h"
 #include "Common/Scene/Edit/SameChange.h"
 
@@ -178,28 +182,70 @@ void drawObjectFields(Gui& gui, const scene::ObjectPath& path) {
     editScene(gui, app::kindName(object), std::move(edits));
 }
 
+namespace {
+
+// What of a sky that there was comes over to one of another kind.
+glm::dvec3 meanOf(const scene::Background& sky) {
+    if (const auto* constant = std::get_if<scene::ConstantBackground>(&sky)) return constant->color;
+    if (const auto* gradient = std::get_if<scene::GradientBackground>(&sky))
+        return 0.5 * (gradient->bottom + gradient->top);
+    return glm::dvec3(0.5);
+}
+
+// Of kinds, those that can be had at once; an image has to be chosen first.
+bool drawSkyKind(Gui& gui, scene::Background& sky) {
+    constexpr const char* kKinds[] = {"Color", "Gradient", "Image"}; // in the order of the variant
+    static_assert(std::variant_size_v<scene::Background> == std::size(kKinds));
+    row("Kind", "One color from everywhere, one from above and one from below, or an image of all directions");
+    bool changed = false;
+    if (ImGui::BeginCombo("##kind", kKinds[sky.index()])) {
+        if (ImGui::Selectable(kKinds[0], sky.index() == 0) && sky.index() != 0) {
+            sky = scene::ConstantBackground{meanOf(sky)};
+            changed = true;
+        }
+        if (ImGui::Selectable(kKinds[1], sky.index() == 1) && sky.index() != 1) {
+            sky = scene::GradientBackground{};
+            changed = true;
+        }
+        if (ImGui::Selectable(kKinds[2], sky.index() == 2) && sky.index() != 2) askImage(gui, setSkyImage);
+        ImGui::EndCombo();
+    }
+    if (const auto file = takeDroppedImage(gui)) setSkyImage(gui, *file);
+    return changed;
+}
+
+bool drawSkyImage(Gui& gui, scene::ImageBackground& image) {
+    row("Image", "Of latitude and longitude, its upper row from above; another one by a click, or by a drop");
+    const std::string name = printable(std::filesystem::path(image.file).filename().string());
+    if (button((elided(name, ImGui::GetContentRegionAvail().x - ImGui::GetFontSize()) + "###image").c_str(),
+               printable(image.file).c_str(), true, ImGui::GetContentRegionAvail().x))
+        askImage(gui, setSkyImage);
+    const auto dropped = takeDroppedImage(gui);
+    const bool changed = inputLight("Strength", "The image is so many times as bright", image.factor);
+    const bool isTurned = sliderReal("Rotation", "About +Y, in degrees", image.rotation, -180, 180, "%.1f");
+    if (dropped) setSkyImage(gui, *dropped);
+    return (changed || isTurned) && !dropped;
+}
+
+} // namespace
+
 void drawSkyFields(Gui& gui) {
     scene::Background sky = gui.editor.document()->scene().background;
-    bool changed = false;
+    ImGui::PushID("sky");
+    const bool isOther = drawSkyKind(gui, sky);
+    bool changed = isOther;
     if (auto* constant = std::get_if<scene::ConstantBackground>(&sky)) {
-        changed = inputLight("Sky", "Radiance from everywhere", constant->color);
+        changed |= inputLight("Sky", "Radiance from everywhere", constant->color);
     } else if (auto* gradient = std::get_if<scene::GradientBackground>(&sky)) {
-        changed = inputColor("Zenith", "Radiance from above", gradient->top);
-        changed |= inputColor("Nadir", "Radiance from below", gradient->bottom);
+        ImGui::PushID("zenith");
+        changed |= inputLight("Zenith", "Radiance from above", gradient->top);
+        ImGui::PopID();
+        changed |= inputLight("Nadir", "Radiance from below", gradient->bottom);
     } else {
-        auto& image = std::get<scene::ImageBackground>(sky);
-        changed = inputLight("Brightness", "The image is so many times as bright", image.factor);
-        changed |= sliderReal("Rotation", "About +Y, in degrees", image.rotation, -180, 180, "%.1f");
+        changed |= drawSkyImage(gui, std::get<scene::ImageBackground>(sky));
     }
-    const bool isConstant = std::holds_alternative<scene::ConstantBackground>(sky);
-    if (button(isConstant ? "Gradient sky" : "Plain sky", "In place of the sky that there is", true)) {
-        if (isConstant)
-            sky = scene::GradientBackground{};
-        else
-            sky = scene::ConstantBackground{glm::dvec3(0.5)};
-        changed = true;
-    }
-    if (changed) editScene(gui, "Sky", {scene::SetBackground{sky}});
+    ImGui::PopID();
+    if (changed) editScene(gui, "Sky", {scene::SetBackground{sky}}, !isOther);
 }
 
 } // namespace rt::gui

@@ -93,6 +93,9 @@ void drawAddMenu(Gui& gui) {
         medium.density = 0.5 / size;
         addObject(gui, "medium", medium, {});
     }
+    ImGui::Separator();
+    if (ImGui::MenuItem("Model...")) gui.browse(BrowseFor::Model);
+    tooltip("What a file of glTF, OBJ or pbrt, or a scene file shows, as one object; also by a drop onto this panel");
     ImGui::EndPopup();
 }
 
@@ -101,7 +104,8 @@ void drawAddMenu(Gui& gui) {
 void drawCommands(Gui& gui) {
     const scene::SceneDocument& document = *gui.editor.document();
     const float space = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 3 * space) / 4;
-    if (button("Add", "A surface, a light or a medium, where the camera looks", true, width)) ImGui::OpenPopup("##add");
+    if (button("Add", "A surface, a light, a medium or a model, where the camera looks", true, width))
+        ImGui::OpenPopup("##add");
     drawAddMenu(gui);
     ImGui::SameLine(0, space);
     const bool canUndo = document.position() > 0, canRedo = document.position() < document.stepCount();
@@ -177,9 +181,11 @@ void drawHistory(const scene::SceneDocument& document) {
 
 void drawObjectsPanel(Gui& gui) {
     gui.editor.begin();
+    if (const auto file = takeDroppedModel(gui)) addModel(gui, *file);
     if (gui.editor.document() == nullptr)
         return note(gui.editor.isReading() ? "Reading the scene's description ..." : "There is no scene yet");
     drawCommands(gui);
+    drawModelReading(gui);
     drawGizmoRow(gui);
     drawObjectTree(gui);
     // Above what is selected, whose fields are more or fewer with each material that it gets.

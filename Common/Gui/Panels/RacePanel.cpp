@@ -229,6 +229,15 @@ void drawStart(Gui& gui) {
         entrants.push_back({gui.settings.request.settings});
 }
 
+// What was raced must be what is edited still.
+const char* whyNotRunFile(const Gui& gui) {
+    if (!gui.state.race) return "there has been no race";
+    if (const char* why = app::whyNoSuite(*gui.state.race)) return why;
+    const std::uint64_t raced = gui.state.race->work.request.edits;
+    const bool isSame = raced == 0 || (raced == gui.state.sceneEdits && gui.editor.isUpToDate(gui.state));
+    return isSame ? nullptr : "the scene has been edited since the race";
+}
+
 // A new one in the folder of pictures.
 std::filesystem::path raceFile(const Gui& gui, const char* extension) {
     const std::filesystem::path folder = saveFolder(gui.settings.saveFolder);
@@ -238,6 +247,15 @@ std::filesystem::path raceFile(const Gui& gui, const char* extension) {
         std::error_code none;
         if (!std::filesystem::exists(file, none)) return file;
     }
+}
+
+void saveRunFile(Gui& gui) {
+    const bool isEdited = gui.state.race->work.request.edits > 0;
+    const std::string sceneFile = isEdited ? raceFile(gui, "-scene.json").string() : std::string();
+    if (isEdited)
+        gui.exporting.startEdited(gui.editor.document()->scene(), app::wholeSource(gui.state.source), gui.state.moment,
+                                  gui.assetsBelow, sceneFile);
+    gui.saveText(raceFile(gui, ".json"), app::raceSuite(*gui.state.race, gui.isGpu, sceneFile));
 }
 
 void drawSaves(Gui& gui) {
@@ -251,10 +269,12 @@ void drawSaves(Gui& gui) {
     if (button("Save picture", "The chart with its headline as PNG, to the same folder", {hasCurves, kNone}))
         gui.partToSave = SavedPart{gui.race.chart, raceFile(gui, ".png")};
     besideIfItFits(buttonWidth("Save run file"));
-    const char* why = gui.state.race ? app::whyNoSuite(*gui.state.race) : "there has been no race";
-    if (button("Save run file", "A suite by which ray-tracing-bench repeats the race, to the same folder",
+    const char* why = whyNotRunFile(gui);
+    if (button("Save run file",
+               "A suite by which ray-tracing-bench repeats the race, to the same folder; of an edited scene with a "
+               "scene file beside it",
                {why == nullptr, why}))
-        gui.saveText(raceFile(gui, ".json"), app::raceSuite(*gui.state.race, gui.isGpu));
+        saveRunFile(gui);
 }
 
 // What one should know of how it was measured.

@@ -33,17 +33,6 @@ void forEachObject(const SceneDesc& scene, const std::function<void(const Object
     for (const auto& [name, objects] : scene.prototypes) forEachObject(objects, visit);
 }
 
-std::size_t textureUses(const SceneDesc& scene, const std::string& texture) {
-    std::size_t uses = 0;
-    const auto count = [&](const std::string& name) { uses += name == texture; };
-    for (const auto& [name, material] : scene.materials) forEachTextureName(material, count);
-    for (const auto& [name, other] : scene.textures) forEachInnerTexture(other, count);
-    forEachObject(scene, [&](const ObjectDesc& object) {
-        if (const auto* medium = std::get_if<MediumDesc>(&object.shape)) visitTextureName(medium->albedo, count);
-    });
-    return uses;
-}
-
 const InstanceDesc* instanceOf(const ObjectDesc& object) {
     return std::get_if<InstanceDesc>(&object.shape);
 }
@@ -230,6 +219,13 @@ struct Check {
         for (std::size_t i = 0; i < edit.value->size(); ++i)
             ObjectCheck(scene, inside).check((*edit.value)[i], place + "/" + std::to_string(i));
     }
+    void operator()(const SetModel& edit) const {
+        const std::string place = "/models/" + edit.name;
+        if (!edit.value) return checkRemoval(scene.models.contains(edit.name), modelUses(scene, edit.name), place);
+        if (!isModelName(edit.name)) refuse(place, "the name of a model must not be empty, and not contain \": \"");
+        if (scene.models.contains(edit.name) || hasContents(scene, edit.name))
+            refuse(place, "the scene has names that begin as those of this model do");
+    }
     void operator()(const SetCamera& edit) const { checkPart(&SceneDesc::camera, edit.value, "/camera"); }
     void operator()(const SetBackground& edit) const { checkPart(&SceneDesc::background, edit.value, "/background"); }
     void operator()(const SetRenderDefaults& edit) const { checkPart(&SceneDesc::render, edit.value, "/render"); }
@@ -282,6 +278,17 @@ std::size_t materialUses(const SceneDesc& scene, const std::string& name) {
     forEachObject(scene, [&](const ObjectDesc& object) {
         const std::string* own = materialNameOf(object);
         uses += own != nullptr && *own == name;
+    });
+    return uses;
+}
+
+std::size_t textureUses(const SceneDesc& scene, const std::string& texture) {
+    std::size_t uses = 0;
+    const auto count = [&](const std::string& name) { uses += name == texture; };
+    for (const auto& [name, material] : scene.materials) forEachTextureName(material, count);
+    for (const auto& [name, other] : scene.textures) forEachInnerTexture(other, count);
+    forEachObject(scene, [&](const ObjectDesc& object) {
+        if (const auto* medium = std::get_if<MediumDesc>(&object.shape)) visitTextureName(medium->albedo, count);
     });
     return uses;
 }

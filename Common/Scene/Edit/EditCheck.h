@@ -10,5 +10,7 @@ void checkEdit(const SceneDesc& scene, const SceneEdit& edit);
 
 // How many surfaces have the material, those of prototypes once.
 std::size_t materialUses(const SceneDesc& scene, const std::string& name);
+// How often materials, other textures and media refer to the texture.
+std::size_t textureUses(const SceneDesc& scene, const std::string& name);
 
 } // namespace rt::scene

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "Common/Scene/Json/SceneJson.h"
+#include "Common/Scene/Json/SceneWriter.h"
 #include "Common/Scene/TextureNames.h"
 
 namespace rt::scene {
@@ -18,8 +19,8 @@ namespace {
 
 // In the order of SceneEdit.
 constexpr std::array<const char*, std::variant_size_v<SceneEdit>> kEditNames = {
-    "object",  "transform", "material_of", "hidden",     "place",  "wrap",    "material",
-    "texture", "prototype", "camera",      "background", "render", "targets", "title"};
+    "object",    "transform", "material_of", "hidden", "place",   "wrap",  "material", "texture",
+    "prototype", "camera",    "background",  "render", "targets", "title", "model"};
 
 std::string quotedText(const std::string& text) {
     return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -72,6 +73,10 @@ struct SceneOfEdit {
         alone.prototypes[edit.name] = *edit.value;
         return true;
     }
+    bool operator()(const SetModel& edit) {
+        if (edit.value) alone.models[edit.name] = *edit.value;
+        return edit.value.has_value();
+    }
     bool operator()(const SetCamera& edit) { return set(alone.camera, edit.value); }
     bool operator()(const SetBackground& edit) { return set(alone.background, edit.value); }
     bool operator()(const SetRenderDefaults& edit) { return set(alone.render, edit.value); }
@@ -90,6 +95,12 @@ struct SceneOfEdit {
         return true;
     }
 };
+
+// A model is named; its file has the rest.
+std::string aloneText(const SceneDesc& alone) {
+    if (alone.models.empty()) return toJson(alone);
+    return layOut({{"models", jsonOf(alone.models)}, {"objects", OrderedJson::array()}});
+}
 
 std::string textOfPath(const ObjectPath& path) {
     std::string text = R"(, "prototype": )" + quotedText(path.prototype) + R"(, "place": [)";
@@ -141,6 +152,10 @@ class EditReader {
     void operator()(SetMaterial& edit) { readNamed(edit, alone_.materials); }
     void operator()(SetTexture& edit) { readNamed(edit, alone_.textures); }
     void operator()(SetPrototype& edit) { readNamed(edit, alone_.prototypes); }
+    void operator()(SetModel& edit) {
+        readNamed(edit, alone_.models);
+        if (hasValue_) edit.contents = takeContents(alone_, edit.name);
+    }
     void operator()(SetCamera& edit) { edit.value = alone_.camera; }
     void operator()(SetBackground& edit) { edit.value = alone_.background; }
     void operator()(SetRenderDefaults& edit) { edit.value = alone_.render; }
@@ -193,7 +208,7 @@ std::string toText(const SceneEdit& edit) {
         },
         edit);
     SceneOfEdit scene;
-    if (std::visit(scene, edit)) text += R"(, "scene": )" + toJson(scene.alone);
+    if (std::visit(scene, edit)) text += R"(, "scene": )" + aloneText(scene.alone);
     std::replace(text.begin(), text.end(), '\n', ' '); // of the layout: within names they are written otherwise
     return text + '}';
 }

@@ -60,6 +60,13 @@ struct Exchange {
     void operator()(SetMaterial& edit) const { exchangeNamed(scene.materials, edit.name, edit.value); }
     void operator()(SetTexture& edit) const { exchangeNamed(scene.textures, edit.name, edit.value); }
     void operator()(SetPrototype& edit) const { exchangeNamed(scene.prototypes, edit.name, edit.value); }
+    void operator()(SetModel& edit) const {
+        if (edit.value)
+            addContents(scene, std::exchange(edit.contents, {}));
+        else
+            edit.contents = takeContents(scene, edit.name);
+        exchangeNamed(scene.models, edit.name, edit.value);
+    }
     void operator()(SetCamera& edit) const { std::swap(scene.camera, edit.value); }
     void operator()(SetBackground& edit) const { std::swap(scene.background, edit.value); }
     void operator()(SetRenderDefaults& edit) const { std::swap(scene.render, edit.value); }
@@ -129,6 +136,13 @@ struct HeapOfEdit {
     std::size_t operator()(const SetPrototype& edit) const {
         return heapOf(edit.name) + (edit.value ? heapOf(*edit.value) : 0);
     }
+    std::size_t operator()(const SetModel& edit) const {
+        std::size_t sum = heapOf(edit.name);
+        for (const auto& [name, objects] : edit.contents.prototypes) sum += heapOf(name) + heapOf(objects);
+        for (const auto& [name, material] : edit.contents.materials) sum += heapOf(name) + sizeof material;
+        for (const auto& [name, texture] : edit.contents.textures) sum += heapOf(name) + sizeof texture;
+        return sum;
+    }
     std::size_t operator()(const SetTargets& edit) const { return heapOf(edit.value); }
     template <typename Edit>
     std::size_t operator()(const Edit& edit) const { // texts within are short, of files at most some hundred bytes
@@ -146,7 +160,7 @@ void exchange(SceneDesc& scene, SceneEdit& edit) {
 bool changesStructure(const SceneEdit& edit) {
     const auto* set = std::get_if<SetObject>(&edit);
     return std::holds_alternative<PlaceObject>(edit) || std::holds_alternative<WrapObject>(edit) ||
-           std::holds_alternative<SetPrototype>(edit) ||
+           std::holds_alternative<SetPrototype>(edit) || std::holds_alternative<SetModel>(edit) ||
            (set != nullptr && std::holds_alternative<GroupDesc>(set->object.shape));
 }
 
@@ -177,7 +191,8 @@ bool replaces(const SceneEdit& later, const SceneEdit& earlier) {
     return std::visit(
         [&]<typename Edit>(const Edit& edit) {
             const Edit& other = std::get<Edit>(earlier);
-            if constexpr (std::is_same_v<Edit, PlaceObject> || std::is_same_v<Edit, WrapObject>)
+            if constexpr (std::is_same_v<Edit, PlaceObject> || std::is_same_v<Edit, WrapObject> ||
+                          std::is_same_v<Edit, SetModel>)
                 return false;
             else if constexpr (requires { edit.path; })
                 return edit.path == other.path;

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "Common/Scene/AddedModels.h"
 #include "Common/Scene/Edit/ObjectPath.h"
 #include "Common/Scene/SceneDesc.h"
 
@@ -53,6 +54,12 @@ struct SetPrototype {
     std::string name;
     std::optional<std::vector<ObjectDesc>> value;
 };
+// With a model: the scene takes it in, with what it brings. Without: the reverse, of whatever names are the model's.
+struct SetModel {
+    std::string name;
+    std::optional<ModelDesc> value;
+    ModelContents contents; // with a model
+};
 struct SetCamera {
     CameraDesc value;
 };
@@ -70,7 +77,7 @@ struct SetTitle {
 };
 using SceneEdit =
     std::variant<SetObject, SetTransform, SetMaterialOf, SetHidden, PlaceObject, WrapObject, SetMaterial, SetTexture,
-                 SetPrototype, SetCamera, SetBackground, SetRenderDefaults, SetTargets, SetTitle>;
+                 SetPrototype, SetCamera, SetBackground, SetRenderDefaults, SetTargets, SetTitle, SetModel>;
 
 // Applies it; afterwards it is what undoes it. It must be valid, see EditCheck.h.
 void exchange(SceneDesc& scene, SceneEdit& edit);

@@ -40,7 +40,8 @@ struct ModelReader {
 
 ImportDesc readImport(const JsonNode& node, const SceneReferences& references);
 std::filesystem::path fileOfImport(const ImportDesc& import); // the one that there is, be it named in other case
-SceneDesc loadImport(const JsonNode& node, const SceneReferences& references, const ModelReader& reader);
+// What the scene begins with: `import`, `models`, or both.
+SceneDesc readBase(const JsonNode& root, const SceneReferences& references, const ModelReader& reader);
 void removeFromModel(const JsonNode& removed, SceneDesc& scene);
 void changeModel(const JsonNode& changes, const SceneReferences& references, SceneDesc& scene);
 // What is used must not have been removed.

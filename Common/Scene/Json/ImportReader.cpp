@@ -9,6 +9,8 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/OtherCase.h"
 #include "Common/Core/Paths.h"
+#include "Common/Core/Printable.h"
+#include "Common/Scene/AddedModels.h"
 #include "Common/Scene/Edit/ObjectPath.h"
 #include "Common/Scene/Json/Import.h"
 #include "Common/Scene/ModelFile.h"
@@ -60,23 +62,61 @@ std::size_t ObjectKeys::countLike(const std::string& key) const {
 
 // ---- the model -----------------------------------------------------------------------------------------------------
 
-ImportDesc readImport(const JsonNode& node, const SceneReferences& references) {
+namespace {
+
+// Without what kind of file it is.
+ImportDesc readNamedFile(const JsonNode& node, const SceneReferences& references) {
     node.expectKeys({"file", "animation", "time"});
-    ImportDesc import;
-    import.file = references.file(node.at("file"), false);
-    if (import.file.is_relative()) import.file = findAsset(import.file).value_or(import.file);
+    ImportDesc named;
+    named.file = references.file(node.at("file"), false);
+    if (named.file.is_relative()) named.file = findAsset(named.file).value_or(named.file);
+    if (const auto animation = node.find("animation")) named.moment.animation = animation->string();
+    if (const auto time = node.find("time")) named.moment.time = time->within(0, kLargest);
+    return named;
+}
+
+// That is there in other case; empty: it is there as it is called, or not at all.
+std::filesystem::path otherCaseOf(const std::filesystem::path& file) {
+    std::error_code none;
+    return std::filesystem::exists(file, none) ? std::filesystem::path() : findInOtherCase(file);
+}
+
+void addModel(const std::string& name, const JsonNode& node, const SceneReferences& references, SceneDesc& scene) {
+    if (!isModelName(name)) node.fail("the name of a model must not be empty, and not contain \": \"");
+    if (hasContents(scene, name)) node.fail("the import has names that begin as those of this model do");
+    const ImportDesc named = readNamedFile(node, references);
+    const bool isReadable = isModelFile(named.file) || kindOfFile(named.file) == ".json";
+    if (!isReadable) node.at("file").failValue("a file of glTF, OBJ or pbrt, or a scene file");
+    ModelDesc model{named.file.generic_string(), named.moment.animation, named.moment.time};
+    if (const auto other = otherCaseOf(named.file); !other.empty()) {
+        scene.notices.push_back("the file of the model \"" + printable(name) +
+                                "\" is named in other case: " + other.filename().string());
+        model.file = other.generic_string();
+    }
+    try {
+        ModelContents contents = readModel(name, model);
+        for (const std::string& notice : contents.notices) scene.notices.push_back(printable(name) + ": " + notice);
+        addContents(scene, std::move(contents));
+    } catch (const UsageError& error) { // of an animation
+        node.fail(error.what());
+    }
+    scene.models.emplace(name, std::move(model));
+}
+
+} // namespace
+
+ImportDesc readImport(const JsonNode& node, const SceneReferences& references) {
+    ImportDesc import = readNamedFile(node, references);
     if (!isModelFile(import.file)) node.at("file").failValue("a file of glTF, OBJ or pbrt");
-    if (const auto animation = node.find("animation")) import.moment.animation = animation->string();
-    if (const auto time = node.find("time")) import.moment.time = time->within(0, kLargest);
     return import;
 }
 
 std::filesystem::path fileOfImport(const ImportDesc& import) {
-    std::error_code none;
-    if (std::filesystem::exists(import.file, none)) return import.file;
-    const std::filesystem::path other = findInOtherCase(import.file);
+    const std::filesystem::path other = otherCaseOf(import.file);
     return other.empty() ? import.file : other;
 }
+
+namespace {
 
 SceneDesc loadImport(const JsonNode& node, const SceneReferences& references, const ModelReader& reader) {
     const ImportDesc import = readImport(node, references);
@@ -90,6 +130,18 @@ SceneDesc loadImport(const JsonNode& node, const SceneReferences& references, co
         if (!reader.asked.animation.empty()) throw;
         node.fail(error.what());
     }
+}
+
+} // namespace
+
+SceneDesc readBase(const JsonNode& root, const SceneReferences& references, const ModelReader& reader) {
+    const auto import = root.find("import"), models = root.find("models");
+    SceneDesc scene;
+    if (import) scene = loadImport(*import, references, reader);
+    if (models)
+        models->forEachMember(
+            [&](const std::string& name, const JsonNode& node) { addModel(name, node, references, scene); });
+    return scene;
 }
 
 void removeFromModel(const JsonNode& removed, SceneDesc& scene) {

@@ -1,15 +1,20 @@
 // Writing of scene files that begin with a model: what the scene has of it is found by comparison, whoever has changed
 // what.
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <map>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
+#include "Common/Scene/AddedModels.h"
 #include "Common/Scene/Edit/ObjectPath.h"
 #include "Common/Scene/Json/Import.h"
 #include "Common/Scene/Json/SceneWriter.h"
+#include "Common/Scene/ModelFile.h"
 
 namespace rt::scene {
 
@@ -189,8 +194,14 @@ void compareSections(const Section& model, const Section& scene, Section& own, c
         if (!scene.contains(name)) removed[key].push_back(name);
 }
 
-OrderedJson importJson(const ImportDesc& import) {
-    OrderedJson out = {{"file", import.file.generic_string()}};
+// Relative to the folder, unless it is on another drive.
+std::string fileFrom(const std::filesystem::path& folder, const std::filesystem::path& file) {
+    const std::filesystem::path relative = folder.empty() ? file : file.lexically_relative(folder);
+    return (relative.empty() ? file : relative).generic_string();
+}
+
+OrderedJson importJson(const ImportDesc& import, const std::filesystem::path& folder) {
+    OrderedJson out = {{"file", fileFrom(folder, import.file)}};
     if (!import.moment.animation.empty()) out["animation"] = import.moment.animation;
     if (import.moment.time != 0) out["time"] = import.moment.time;
     return out;
@@ -216,8 +227,25 @@ bool isSameScene(const SceneDesc& a, const SceneDesc& b) {
 
 } // namespace
 
-std::string toJson(const SceneDesc& scene, const ImportDesc& import, SceneDesc model) {
+SceneDesc baseOf(const std::optional<ImportDesc>& import, const std::map<std::string, ModelDesc>& models) {
+    SceneDesc base;
+    if (import) base = loadModelFile(import->file, import->moment);
+    for (const auto& [name, model] : models) {
+        try {
+            if (hasContents(base, name)) continue;
+            addContents(base, readModel(name, model));
+            base.models.emplace(name, model);
+        } catch (const Error&) { // what it has brought is the scene's own
+        }
+    }
+    return base;
+}
+
+std::string toJson(const SceneDesc& scene, const std::optional<ImportDesc>& import, SceneDesc model,
+                   const std::filesystem::path& folder) {
     SceneDesc own; // beyond the model
+    std::map<std::string, ModelDesc> models = model.models;
+    for (auto& [name, named] : models) named.file = fileFrom(folder, named.file);
     OrderedJson removed = OrderedJson::object(), changes = OrderedJson::array();
     compareSections(model.cameras, scene.cameras, own.cameras, "cameras", removed);
     compareSections(model.textures, scene.textures, own.textures, "textures", removed);
@@ -239,7 +267,8 @@ std::string toJson(const SceneDesc& scene, const ImportDesc& import, SceneDesc m
     own.importanceTargets = scene.importanceTargets;
     OrderedJson all = jsonOf(own), out = {{"version", 1}};
     if (scene.title != model.title) out["title"] = scene.title;
-    out["import"] = importJson(import);
+    if (import) out["import"] = importJson(*import, folder);
+    if (!models.empty()) out["models"] = jsonOf(models);
     if (scene.camera != model.camera) out["camera"] = all["camera"];
     if (all.contains("cameras")) out["cameras"] = all["cameras"];
     if (scene.background != model.background) out["background"] = all["background"];

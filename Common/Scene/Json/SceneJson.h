@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,7 +25,8 @@ SceneDesc loadSceneFile(const std::filesystem::path& path, const Moment& asked =
 // The same from a text; `file` stands in messages, `folder` is where files are looked for first.
 SceneDesc parseScene(std::string_view text, const std::string& file, const std::filesystem::path& folder);
 
-// The text of a scene file. parseScene gives back an equal description, but for its id, and numbers to the last bit.
+// The text of a scene file that names no models: all of it is there. parseScene gives back an equal description, but
+// for its id and its models, and numbers to the last bit.
 std::string toJson(const SceneDesc& scene);
 
 // A model that a scene file begins with, and changes: the file is named, not copied.
@@ -48,8 +50,12 @@ class PosedSceneFile {
     std::unique_ptr<AnimatedModel> model_; // null: it imports none
 };
 
-// The text of a scene file of what the scene has beyond the model, as loadModelFile() gives it. Throws InputError where
-// reading it would not give an equal description.
-std::string toJson(const SceneDesc& scene, const ImportDesc& import, SceneDesc model);
+// What a scene begins with that is not its own: the import, if there is one, and those of its models that can be read.
+// Throws what reading the import does.
+SceneDesc baseOf(const std::optional<ImportDesc>& import, const std::map<std::string, ModelDesc>& models);
+// The text of a scene file, to be in that folder, of what the scene has beyond its base, whose import and models it
+// names. Throws InputError where reading it would not give an equal description.
+std::string toJson(const SceneDesc& scene, const std::optional<ImportDesc>& import, SceneDesc base,
+                   const std::filesystem::path& folder);
 
 } // namespace rt::scene

@@ -17,6 +17,7 @@
 
 #include "Common/Core/OtherCase.h"
 #include "Common/Core/Paths.h"
+#include "Common/Core/Printable.h"
 #include "Common/Core/ReadFile.h"
 #include "Common/Scene/Json/Import.h"
 #include "Common/Scene/Json/SceneJson.h"
@@ -94,15 +95,17 @@ RenderDefaults readRender(const JsonNode& node) {
 // `model`: what the import has led to; empty: it is read.
 SceneDesc readScene(const JsonNode& root, SceneReferences references, const LongJson& text,
                     std::optional<SceneDesc> model, const ModelReader& reader) {
-    root.expectKeys({"$schema", "version", "title", "comment", "import", "removed", "changes", "camera", "cameras",
-                     "background", "textures", "materials", "prototypes", "objects", "importance_targets", "render"});
+    root.expectKeys({"$schema", "version", "title", "comment", "import", "models", "removed", "changes", "camera",
+                     "cameras", "background", "textures", "materials", "prototypes", "objects", "importance_targets",
+                     "render"});
     if (const auto version = root.find("version"); version && version->value() != 1) version->failValue("1");
-    const auto import = root.find("import");
+    const bool hasModel = root.has("import") || root.has("models");
     for (const char* key : {"removed", "changes"})
-        if (!import && root.has(key)) root.at(key).fail("there is no \"import\" that it could change");
+        if (!hasModel && root.has(key))
+            root.at(key).fail("there is neither \"import\" nor \"models\" that it could change");
     SceneDesc scene;
-    if (import) {
-        scene = model ? std::move(*model) : loadImport(*import, references, reader);
+    if (hasModel) {
+        scene = model ? std::move(*model) : readBase(root, references, reader);
         references.setModel(&scene);
     }
     if (const auto removed = root.find("removed")) removeFromModel(*removed, scene);
@@ -132,7 +135,7 @@ SceneDesc readScene(const JsonNode& root, SceneReferences references, const Long
         scene.objects = std::move(own);
     else
         std::move(own.begin(), own.end(), std::back_inserter(scene.objects));
-    if (import) checkNames(root, scene);
+    if (hasModel) checkNames(root, scene);
     if (root.has("importance_targets")) scene.importanceTargets.clear();
     if (const auto section = root.find("importance_targets"))
         section->forEachElement([&](const JsonNode& node) { scene.importanceTargets.push_back(readTarget(node)); });
@@ -144,22 +147,38 @@ SceneDesc readScene(const JsonNode& root, SceneReferences references, const Long
 
 // ---- references ----------------------------------------------------------------------------------------------------
 
-bool SceneReferences::isOfModel(const std::string& name, const char* section) const {
-    if (model_ == nullptr) return false;
-    const std::string_view list = section;
-    return list == "textures"    ? model_->textures.contains(name)
-           : list == "materials" ? model_->materials.contains(name)
-                                 : model_->prototypes.contains(name);
+namespace {
+
+// Of a section of a scene: whether it has the name, and the first of those that it has.
+bool sectionHas(const SceneDesc& scene, std::string_view section, const std::string& name) {
+    return section == "textures"    ? scene.textures.contains(name)
+           : section == "materials" ? scene.materials.contains(name)
+                                    : scene.prototypes.contains(name);
 }
+
+void addKnown(const std::string& name, std::string& known) {
+    constexpr std::size_t kMostCharacters = 200;
+    if (known.size() < kMostCharacters) known += (known.empty() ? "" : ", ") + printable(name);
+}
+
+void addKnownNames(const SceneDesc& scene, std::string_view section, std::string& known) {
+    const auto add = [&](const auto& named) {
+        for (const auto& [name, value] : named) addKnown(name, known);
+    };
+    section == "textures" ? add(scene.textures) : section == "materials" ? add(scene.materials) : add(scene.prototypes);
+}
+
+} // namespace
 
 std::string SceneReferences::name(const JsonNode& node, const char* section) const {
     const std::string text = node.string();
     const auto names = root_.find(section);
-    if ((names && names->has(text.c_str())) || isOfModel(text, section)) return text;
+    const bool isModels = model_ != nullptr && sectionHas(*model_, section, text);
+    if (isModels || (names && names->has(text.c_str()))) return text;
     std::string known;
     if (names && names->value().is_object())
-        for (const auto& member : names->value().items())
-            if (known.size() < 200) known += (known.empty() ? "" : ", ") + member.key();
+        for (const auto& member : names->value().items()) addKnown(member.key(), known);
+    if (model_ != nullptr) addKnownNames(*model_, section, known);
     node.failValue("a name from " + std::string(section) + (known.empty() ? ", which is empty" : ": " + known));
 }
 
@@ -170,7 +189,9 @@ ColorOrTexture SceneReferences::colorOrTexture(const JsonNode& node) const {
 }
 
 std::string SceneReferences::file(const JsonNode& node, bool hasStandIn) const {
-    const std::filesystem::path path(node.string());
+    const std::string text = node.string();
+    if (text.find('\0') != text.npos) node.failValue("a name of a file, which has no character 0");
+    const std::filesystem::path path(text);
     const std::filesystem::path beside = path.is_absolute() ? path : folder_ / path;
     const std::filesystem::path whole = path.empty() ? path : std::filesystem::absolute(beside).lexically_normal();
     std::error_code ignored;
@@ -178,7 +199,7 @@ std::string SceneReferences::file(const JsonNode& node, bool hasStandIn) const {
         return whole.generic_string();
     const bool isAsset = !path.empty() && path.is_relative() && findAsset(path);
     if (!hasStandIn && !isAsset) node.failValue("an existing file, beside the scene or among the assets");
-    return node.string();
+    return text;
 }
 
 std::string readChoice(const JsonNode& node, const std::vector<std::string>& allowed) {

@@ -31,8 +31,6 @@ class SceneReferences {
     std::string file(const JsonNode& node, bool hasStandIn) const;
 
   private:
-    bool isOfModel(const std::string& name, const char* section) const;
-
     const JsonNode& root_;
     const std::filesystem::path& folder_;
     const SceneDesc* model_ = nullptr;

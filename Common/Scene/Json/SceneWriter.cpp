@@ -356,6 +356,16 @@ OrderedJson jsonOf(const Transform& transform) {
     return json(transform);
 }
 
+OrderedJson jsonOf(const std::map<std::string, ModelDesc>& models) {
+    OrderedJson out = OrderedJson::object();
+    for (const auto& [name, model] : models) {
+        OrderedJson& named = out[name] = {{"file", model.file}};
+        setUnless(named, "animation", model.animation, std::string());
+        setUnless(named, "time", model.time, 0.0);
+    }
+    return out;
+}
+
 OrderedJson jsonOf(const SceneDesc& scene) {
     OrderedJson out = {{"version", 1}};
     setUnless(out, "title", scene.title, std::string());
