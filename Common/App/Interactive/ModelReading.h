@@ -37,8 +37,8 @@ class ModelReading {
 // The model of the scene that this file is; empty: there is none.
 std::string modelOfFile(const scene::SceneDesc& scene, const std::string& file);
 
-// What puts an instance of a model into the scene, behind all other objects and where placeOfModel() says. `model`: what
-// the scene is to take in first; none: it has it. `bounds`: of the scene.
+// What puts an instance of a model into the scene, behind all other objects and where placeOfModel() says. `model`:
+// what the scene is to take in first; none: it has it. `bounds`: of the scene.
 std::vector<scene::SceneEdit> editsToAdd(const scene::SceneDesc& scene, const std::string& name,
                                          std::optional<scene::SetModel> model, const scene::Bounds& bounds,
                                          const scene::CameraDesc& camera);

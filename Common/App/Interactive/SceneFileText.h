@@ -8,8 +8,8 @@
 namespace rt::app {
 
 // `source`: what was edited, by its whole path, at that moment; `file`: where the text is going to be. What was
-// imported or taken in is named, by a path from there where there is one, with what is otherwise now. A model that cannot be read
-// any more, or of which nothing is left, is not named: all of the scene is in the text.
+// imported or taken in is named, by a path from there where there is one, with what is otherwise now. A model that cannot
+// be read any more, or of which nothing is left, is not named: all of it is in the text.
 std::string sceneFileText(const scene::SceneDesc& scene, const std::string& source, const scene::Moment& moment,
                           const std::string& file);
 

@@ -47,7 +47,7 @@ struct MaterialRows {
     std::string droppedImage{};
 };
 
-// Behind the row of a colour or a number: an image in its place. `sources`: of the material.
+// Behind the row of a colour or a number: an image in its place. `find`: where a material has it.
 template <typename Find>
 void drawImageButton(MaterialRows& rows, const std::string& label, bool isColor, const Find& find) {
     using Source = std::remove_pointer_t<decltype(find(std::declval<scene::MaterialDesc&>()))>;
@@ -76,12 +76,11 @@ float imageButtonRoom() {
 bool drawTextureName(const std::string& label, const char* help, const std::string& texture) {
     row(label.c_str(), help);
     const float room = ImGui::GetContentRegionAvail().x - 2 * imageButtonRoom();
-    const float left = ImGui::GetCursorPosX();
     ImGui::PushID(label.c_str());
     ImGui::BeginGroup(); // above all of which an image can be let go
     ImGui::TextDisabled("%s", elided("texture " + texture, room).c_str());
     tooltip(printable(texture).c_str());
-    ImGui::SameLine(left + room + ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::SameLine(room + ImGui::GetStyle().ItemInnerSpacing.x); // from the group's left end
     const bool isRemoved = iconButton("none", Icon::Close, "One value in place of the texture");
     ImGui::EndGroup();
     ImGui::PopID();
