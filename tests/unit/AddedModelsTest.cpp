@@ -39,7 +39,8 @@ class AddedModelsTest : public testing::Test {
               "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n"
               "usemtl red\nf 1/1 2/2 3/3\nusemtl glow\nf 1 2 4\nf 1 3 4\n");
         write("base.json", toJson(sceneOfMeshes(2)));
-        write("room.json", R"({"textures": {"squares": {"type": "checker"}}, "background": {"type": "gradient",
+        write("room.json", R"({"textures": {"squares": {"type": "checker", "scale": 1,
+            "even": [0, 0, 0], "odd": [1, 1, 1]}}, "background": {"type": "gradient",
             "bottom": [0, 0, 0], "top": [1, 1, 1]}, "materials": {"floor": {"type": "lambertian", "albedo": "squares"}},
             "prototypes": {"ball": [{"type": "sphere", "material": "floor", "center": [0, 1, 0], "radius": 1}]},
             "objects": [{"type": "instance", "prototype": "ball", "transform": [{"scale": 2}]},
@@ -209,7 +210,7 @@ TEST_F(AddedModelsTest, AnEditIsKeptByTheNameOfTheFile) {
     EXPECT_EQ(line.find('\n'), line.npos);
     SceneDocument first(sceneOfMeshes(2)), second(sceneOfMeshes(2));
     EditStep read = parseStep(line, "kept");
-    EXPECT_EQ(std::get<SetModel>(read.edits.at(0)).contents, std::get<SetModel>(step.edits.at(0)).contents);
+    EXPECT_EQ(std::get<SetModel>(read.edits.at(0)).value, std::get<SetModel>(step.edits.at(0)).value);
     repeat(first, std::move(step));
     repeat(second, std::move(read));
     EXPECT_TRUE(first.scene() == second.scene());

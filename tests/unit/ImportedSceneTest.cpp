@@ -229,7 +229,7 @@ TEST_F(ImportedSceneTest, WhatTheModelHasNotIsNamedWithItsPlace) {
     expectSaid(R"({"import": {"file": "models/none.glb"}})", "/import/file", "an existing file");
     expectSaid(R"({"import": {"animation": "walk"}})", "/import", "no animations");
     nlohmann::json alone = {{"objects", nlohmann::json::array()}, {"changes", nlohmann::json::array()}};
-    EXPECT_NE(errorOf(alone).find("no \"import\""), std::string::npos) << errorOf(alone);
+    EXPECT_NE(errorOf(alone).find("neither \"import\" nor \"models\""), std::string::npos) << errorOf(alone);
 }
 
 } // namespace
