@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string fileNameOf(const std::string& file) {
+std::string shortName(const std::string& file) {
     return fs::path(file).filename().string();
 }
 
@@ -35,7 +35,7 @@ scene::Bounds shownBounds(const Gui& gui) {
 void placeModel(Gui& gui, const std::string& name, std::optional<scene::SetModel> model) {
     const scene::SceneDesc& scene = gui.editor.document()->scene();
     const scene::ObjectPath path{"", {static_cast<std::uint32_t>(scene.objects.size())}};
-    const std::string file = fileNameOf(model ? model->value->file : scene.models.at(name).file);
+    const std::string file = shortName(model ? model->value->file : scene.models.at(name).file);
     std::string told = "Added " + file;
     if (model && !model->contents.notices.empty()) told += ": " + model->contents.notices.front();
     auto edits = app::editsToAdd(scene, name, std::move(model), shownBounds(gui), gui.camera.camera());
@@ -53,7 +53,7 @@ void beginReading(Gui& gui) {
     if (const std::string name = app::modelOfFile(scene, file); !name.empty()) return placeModel(gui, name, {});
     gui.added.sceneReads = gui.state.sceneReads;
     gui.added.model.start(freeModelName(scene, file), file, gui.assetsBelow);
-    gui.say("Reading " + fileNameOf(file));
+    gui.say("Reading " + shortName(file));
 }
 
 std::string wholeName(const std::string& file) {
@@ -110,7 +110,7 @@ void followAddedFiles(Gui& gui) {
 
 void drawModelReading(Gui& gui) {
     if (!gui.added.model.isUnderWay()) return;
-    note(elided("Reading " + printable(fileNameOf(gui.added.model.file())) + " ...",
+    note(elided("Reading " + printable(shortName(gui.added.model.file())) + " ...",
                 ImGui::GetContentRegionAvail().x - buttonWidth("Stop") - 2 * ImGui::GetFontSize()));
     besideIfItFits(buttonWidth("Stop"));
     if (button("Stop", "It is not added", true)) gui.added.model.stop();
@@ -134,7 +134,7 @@ void setSkyImage(Gui& gui, const std::string& file) {
     const auto* image = std::get_if<scene::ImageBackground>(&before);
     scene::ImageBackground sky = image != nullptr ? *image : scene::ImageBackground{};
     sky.file = wholeName(file);
-    if (editScene(gui, "Sky", {scene::SetBackground{sky}}, false)) gui.say("Sky of " + fileNameOf(file));
+    if (editScene(gui, "Sky", {scene::SetBackground{sky}}, false)) gui.say("Sky of " + shortName(file));
 }
 
 void setTexture(Gui& gui, const TextureSlot& slot, const std::string& file) {
@@ -146,7 +146,7 @@ void setTexture(Gui& gui, const TextureSlot& slot, const std::string& file) {
     slot.set(material, textureOf(scene, file, slot.isColor, edits));
     edits.push_back(scene::SetMaterial{slot.material, std::move(material)});
     if (editScene(gui, "Texture of " + slot.material, std::move(edits), false))
-        gui.say("\"" + slot.material + "\" has now " + fileNameOf(file));
+        gui.say("\"" + slot.material + "\" has now " + shortName(file));
 }
 
 void dropImage(Gui& gui, const std::string& file, const std::array<std::uint32_t, 2>& pixel) {
