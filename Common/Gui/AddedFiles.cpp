@@ -171,6 +171,11 @@ std::optional<std::string> takeDroppedModel(Gui& gui) {
     return std::exchange(gui.added.droppedScene, {});
 }
 
+void beginDrop(Gui& gui, const std::string& file) {
+    const bool isPart = isMaterialFile(file) || isImageFile(file);
+    (isPart ? gui.materials.droppedFile : gui.added.droppedScene) = file;
+}
+
 void endDrops(Gui& gui) {
     if (!std::exchange(gui.added.droppedImage, {}).empty())
         gui.say("An image can be let go above an object, above the sky, and above fields of colours and textures");

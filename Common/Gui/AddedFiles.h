@@ -43,6 +43,7 @@ void setSkyImage(Gui& gui, const std::string& file);
 void setTexture(Gui& gui, const TextureSlot& slot, const std::string& file);
 // The image that was dropped is for what is seen there: the colour of an object's material, else the sky.
 void dropImage(Gui& gui, const std::string& file, const std::array<std::uint32_t, 2>& pixel);
+void beginDrop(Gui& gui, const std::string& file); // before the frame: what the panels may take
 // Whether a file was dropped above the item that was drawn last, which then is to take it; or above the window.
 std::optional<std::string> takeDroppedImage(Gui& gui);
 std::optional<std::string> takeDroppedModel(Gui& gui);

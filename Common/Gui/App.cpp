@@ -174,8 +174,7 @@ bool App::askBeforeClosing() {
 // Whether something may move by itself.
 bool App::isAwake() const {
     const double seconds = device_.isSoftware() ? kSoftAwakeSeconds : kAwakeSeconds;
-    const bool isTimePassing = gui_.timeline.isPlaying() && !gui_.timeline.isWaiting();
-    return flying_ || isTimePassing || ImGui::IsAnyMouseDown() || framesSinceInput_ < kSettlingFrames ||
+    return flying_ || gui_.timeline.isPassing() || ImGui::IsAnyMouseDown() || framesSinceInput_ < kSettlingFrames ||
            (sinceInput_ && sinceInput_->seconds() < seconds);
 }
 
@@ -219,9 +218,7 @@ void App::turn() {
     const app::Stopwatch busy;
     viewports_.take();
     if (!dropped_.empty()) {
-        const std::string& file = dropped_.front();
-        const bool isPart = isMaterialFile(file) || isImageFile(file);
-        (isPart ? gui_.materials.droppedFile : gui_.added.droppedScene) = file;
+        beginDrop(gui_, dropped_.front());
         dropped_.clear();
     }
     const auto [width, height] = window_.framebufferSize();

@@ -76,7 +76,7 @@ MeshDesc& worldMesh(SceneDesc& scene) {
 
 TEST(CompileMemory, MeshesThatNobodyNeedsAreGivenBack) {
     const SceneDesc kept = sceneOfMeshes();
-    SceneDesc given = kept;
+    SceneDesc given = sceneOfMeshes();
     expectSameScene(*compileScene(std::move(given)), *compileScene(kept));
     const MeshData& left = *std::get<Boxed<MeshData>>(worldMesh(given).source);
     EXPECT_TRUE(left.positions.empty() && left.normals.empty() && left.uvs.empty() && left.triangles.empty());
@@ -86,9 +86,13 @@ TEST(CompileMemory, MeshesThatNobodyNeedsAreGivenBack) {
     CompileMemory memory;
     CompileOptions remembering;
     remembering.memory = &memory;
-    SceneDesc edited = kept;
+    SceneDesc edited = sceneOfMeshes();
     compileScene(std::move(edited), remembering);
     EXPECT_EQ(edited.objects, kept.objects);
+    // So is what another description shares.
+    SceneDesc shared = kept;
+    compileScene(std::move(shared));
+    EXPECT_EQ(kept, sceneOfMeshes());
 }
 
 TEST(CompileMemory, MeshesInSinglePrecisionAreAsThoseInDouble) {

@@ -38,8 +38,8 @@ class SceneExport {
     std::optional<Result> takeResult();
 
   private:
-    void run(std::function<std::vector<std::string>()> write, const std::string& source,
-             const std::string& assetsBelow, const std::string& file);
+    void run(std::function<std::vector<std::string>()> write, const std::string& source, const std::string& assetsBelow,
+             const std::string& file);
 
     std::atomic<bool> callOff_{false};
     std::future<Result> result_;

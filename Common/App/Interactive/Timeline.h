@@ -32,6 +32,7 @@ class Timeline {
     const char* whyNot() const;                                   // time cannot be changed; null: it can
     bool isPlaying() const { return isPlaying_; }
     bool isWaiting() const { return pending_.has_value(); } // for the session
+    bool isPassing() const { return isPlaying_ && !pending_; }
     const scene::Motion& motion() const { return motion_; }
     double time() const { return wish().moment.time; } // seconds, as wished
     double length() const;                             // in seconds; as much as the time that is beyond it

@@ -7,7 +7,6 @@
 #include "Common/App/Options/FlagSet.h"
 #include "Common/App/Options/MotionFlags.h"
 #include "Common/App/Session/FeatureNames.h"
-#include "Common/App/Session/SceneOutput.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/Film.h"
@@ -246,10 +245,7 @@ void settleCommand(const FlagSet& flags, ParsedFlags& parsed) {
     if (options.json && !parsed.listScenes) throw UsageError("--json: only with --list-scenes");
     if (parsed.listScenes && !options.exportFile.empty()) throw UsageError("--export-scene: contradicts --list-scenes");
     if (parsed.listScenes) options.command = Command::ListScenes;
-    if (!options.exportFile.empty()) {
-        if (!isSceneOutput(options.exportFile)) refuseValue("--export-scene", options.exportFile, kSceneOutputs);
-        options.command = Command::ExportScene;
-    }
+    if (!options.exportFile.empty()) options.command = Command::ExportScene;
     if (parsed.listDevices) options.command = Command::ListDevices;
     if (options.command != Command::Render) return;
     if (parsed.headless && parsed.window) throw UsageError("--window: contradicts --headless");

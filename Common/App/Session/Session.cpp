@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "Common/App/Options/OptionValues.h"
 #include "Common/App/Platform.h"
 #include "Common/App/Ranks/LocalRank.h"
 #include "Common/App/Ranks/Message.h"
@@ -93,6 +94,7 @@ void HeadlessRender::sample() {
 }
 
 void exportScene(const Options& options) {
+    if (!isSceneOutput(options.exportFile)) refuseValue("--export-scene", options.exportFile, kSceneOutputs);
     const ReadsBelow confined(options.assetsBelow, options.scene);
     scene::SceneDesc scene = loadScene(options.scene, options.moment);
     if (!options.camera.empty()) scene.camera = cameraOf(options.camera, scene);

@@ -21,7 +21,7 @@ std::string setName(const char* name, int set) {
     return std::string(name) + std::to_string(set);
 }
 
-constexpr double kRounding = 0.02; // of the sum of eight weights in bytes, each within half of 1/255
+constexpr double kWeightRounding = 0.02; // of the sum of eight weights in bytes, each within half of 1/255
 
 struct VertexMaps {
     std::vector<Affine> maps;
@@ -59,7 +59,7 @@ VertexMaps vertexMaps(const GltfFile& file, const tinygltf::Primitive& primitive
     }
     std::size_t rescaled = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        if (std::abs(sums[i] - 1) > kRounding) ++rescaled;
+        if (std::abs(sums[i] - 1) > kWeightRounding) ++rescaled;
         if (sums[i] > 0) {
             maps[i].linear /= sums[i];
             maps[i].offset /= sums[i];
