@@ -4,6 +4,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/gui/WindowTest.h"
 #include "tests/unit/MovingModels.h"
@@ -17,7 +18,9 @@ class MotionTest : public WindowTest {
   protected:
     void startWith(const fs::path& scene) {
         fs::create_directories(folder_ / "config" / "ray-tracing");
-        store({{"saw_first_steps", true}, {"show_comparison", false}});
+        nlohmann::json open; // no panel, so that all their names are seen
+        for (const char* panel : {"scene", "rendering"}) open[panel] = false;
+        store({{"open_panels", open}, {"saw_first_steps", true}, {"show_comparison", false}});
         start({"--scene", scene.string(), "--width", "64", "--spp", "4"});
     }
     // Where the lamp is seen, from the left: the middle of what is bright in the row at the picture's middle.
