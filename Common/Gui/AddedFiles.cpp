@@ -56,16 +56,11 @@ void beginReading(Gui& gui) {
     gui.say("Reading " + shortName(file));
 }
 
-std::string wholeName(const std::string& file) {
-    std::error_code none;
-    return fs::absolute(file, none).lexically_normal().generic_string();
-}
-
 // The name of an image texture in the scene: of one that is equal, else a new one, which the edit makes.
 std::string textureOf(const scene::SceneDesc& scene, const std::string& file, bool isColor,
                       std::vector<scene::SceneEdit>& edits) {
     scene::ImageTexture image;
-    image.file = wholeName(file);
+    image.file = app::wholePath(file);
     image.colorSpace = isColor ? scene::ColorSpace::Srgb : scene::ColorSpace::Linear;
     image.wrapU = image.wrapV = scene::Wrap::Repeat;
     const scene::TextureDesc wanted = image;
@@ -90,7 +85,7 @@ void takeImageAt(Gui& gui, const std::string& file, const scene::ObjectPath& pat
 
 void addModel(Gui& gui, const std::string& file) {
     gui.editor.begin();
-    gui.added.wantedModel = wholeName(file);
+    gui.added.wantedModel = app::wholePath(file);
 }
 
 void followAddedFiles(Gui& gui) {
@@ -133,7 +128,7 @@ void setSkyImage(Gui& gui, const std::string& file) {
     const scene::Background& before = gui.editor.document()->scene().background;
     const auto* image = std::get_if<scene::ImageBackground>(&before);
     scene::ImageBackground sky = image != nullptr ? *image : scene::ImageBackground{};
-    sky.file = wholeName(file);
+    sky.file = app::wholePath(file);
     if (editScene(gui, "Sky", {scene::SetBackground{sky}}, false)) gui.say("Sky of " + shortName(file));
 }
 

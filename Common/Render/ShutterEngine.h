@@ -29,9 +29,9 @@ PoseOfSample poseOfSample(std::uint32_t sample);
 double timeOfPose(std::uint32_t seed, std::uint32_t replicate, const PoseOfSample& pose);
 
 // Renders what `pose` makes of the scene while the shutter is open, from `open` to `close` in seconds. What it is given
-// is one of its poses; a camera of that follows its motion (FollowedCamera.h), any other stays. Each replicate is a render of its own with times of its own, so that they tell the error
-// that times leave as well. Of features of surfaces it makes the mean over kAovPoses times. Not for adaptive films nor
-// for leases.
+// is one of its poses; a camera of that follows its motion (FollowedCamera.h), any other stays. Each replicate is a
+// render of its own with times of its own, so that they tell the error that times leave as well. Of features of
+// surfaces it makes the mean over kAovPoses times. Not for adaptive films nor for leases.
 std::unique_ptr<Engine> makeShutterEngine(std::unique_ptr<Engine> engine, double open, double close, PoseScene pose);
 // By an engine that outlives it, and that is used by nobody else until a scene is set there again.
 std::unique_ptr<Engine> makeShutterEngine(Engine& engine, double open, double close, PoseScene pose);

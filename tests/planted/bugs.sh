@@ -52,7 +52,7 @@ bug 'an EXR whose table leads beside its rows' ExrWriter.cpp 's/kRowHead = 8/kRo
 bug 'EXR attributes of any size' ExrHeader.cpp 's/fixed->bytes == size/fixed != nullptr/' unit.ImageIoHostile
 
 # ---- denoiser --------------------------------------------------------------------------------------------------------
-bug 'weights from the half that is filtered' DenoiseFilter.cpp 's/halves_\.half\[1 - half\]\.guide\[/halves_.half[half].guide[/' unit.Denoiser
+bug 'weights from the half that is filtered' DenoiseFilter.cpp 's/halves_\.half\[1 - half\]/halves_.half[half]/' unit.Denoiser
 bug 'pixels that are compared as if they had no noise' Denoiser.cpp 's/\+= 0\.5f \* difference \* difference/+= 0.0f * difference/' unit.Denoiser
 bug 'no stop at an edge' DenoiseWeights.h 's/0\.125f \* perSquaredBandwidth/0.0f * perSquaredBandwidth/' unit.Denoiser
 bug 'an error without what is left of the noise' DenoiseWeights.h 's/a\.ownFactor \+ b\.ownFactor - 1\.0f/-1.0f/' unit.Denoiser

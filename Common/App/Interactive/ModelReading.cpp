@@ -23,11 +23,6 @@ bool isReadByNow(const std::future<scene::SetModel>& future) {
     return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
-std::string wholePath(const std::string& file) {
-    std::error_code none;
-    return fs::absolute(file, none).lexically_normal().generic_string();
-}
-
 scene::SetModel readToAdd(const std::string& name, const std::string& file) {
     std::error_code none;
     if (!fs::exists(file, none)) throw InputError(printable(file) + ": there is no such file");
@@ -40,6 +35,11 @@ scene::SetModel readToAdd(const std::string& name, const std::string& file) {
 }
 
 } // namespace
+
+std::string wholePath(const std::string& file) {
+    std::error_code none;
+    return fs::absolute(file, none).lexically_normal().generic_string();
+}
 
 void ModelReading::start(const std::string& name, const std::string& file, const std::string& assetsBelow) {
     stop();

@@ -34,6 +34,8 @@ class ModelReading {
     std::vector<std::future<scene::SetModel>> unwanted_; // whose threads still end
 };
 
+// As files of models and images are named in scenes: from the root, without "..".
+std::string wholePath(const std::string& file);
 // The model of the scene that this file is; empty: there is none.
 std::string modelOfFile(const scene::SceneDesc& scene, const std::string& file);
 

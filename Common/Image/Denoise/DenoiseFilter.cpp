@@ -85,13 +85,6 @@ void makeGuide(Half& half, BorderedPlane& variance, BorderedPlane& inside, const
 }
 
 void makeGuides(Halves& halves, const DenoiseKernels& kernels, std::size_t threads) {
-    if (halves.hasRawGuides()) {
-        for (Half& half : halves.half) {
-            half.guide = half.tones;
-            half.guideVariance = halves.variance;
-        }
-        return;
-    }
     const std::size_t width = halves.variance.width(), height = halves.variance.height();
     BorderedPlane variance(halves.variance), inside(width, height);
     for (std::size_t y = 0; y < height; ++y) std::fill_n(inside.row(y), width, 1.0f);
@@ -120,9 +113,11 @@ class TileFilter {
         tile.scratch = scratch_.data();
         loadFeatures(tile);
         for (std::size_t half = 0; half < 2; ++half) {
-            tile.variance = load(kVariance, halves_.half[1 - half].guideVariance);
+            const Half& other = halves_.half[1 - half];
+            const bool isRaw = halves_.hasRawGuides();
+            tile.variance = load(kVariance, isRaw ? halves_.variance : other.guideVariance);
             for (int c = 0; c < 3; ++c) {
-                tile.guide[c] = load(kGuide + c, halves_.half[1 - half].guide[c]);
+                tile.guide[c] = load(kGuide + c, isRaw ? other.tones[c] : other.guide[c]);
                 tile.radiance[c] = load(kRadiance + c, halves_.half[half].radiance[c]);
             }
             for (std::size_t i = 0; i < kDenoiseBandwidths; ++i)
@@ -245,7 +240,7 @@ void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads
     const std::size_t columns = (width + kDenoiseTile - 1) / kDenoiseTile,
                       rows = (height + kDenoiseTile - 1) / kDenoiseTile;
     const DenoiseKernels kernels = bestKernels();
-    makeGuides(halves, kernels, threads);
+    if (!halves.hasRawGuides()) makeGuides(halves, kernels, threads);
     parallelFor(threads, rows, [&](std::size_t row) {
         TileFilter filter(halves, features, kernels);
         for (std::size_t column = 0; column < columns; ++column) {

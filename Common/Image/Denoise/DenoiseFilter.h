@@ -16,7 +16,7 @@ namespace rt::image {
 // A half as the filter reads it.
 struct Half {
     Planes radiance, tones;
-    Planes guide; // what pixels of the other half are compared by
+    Planes guide; // what pixels of the other half are compared by, unless by tones as they are
     Plane guideVariance;
 };
 

@@ -7,6 +7,7 @@
 
 #include "Common/Image/Denoise/DenoiseKernel.h"
 #include "Common/Image/Denoise/Float8.h"
+#include "Common/Image/Denoise/PixelDistances.h"
 #include "Common/Image/Denoise/WeightedSums.h"
 #include "Common/Shared/Denoise/DenoiseFit.h"
 
@@ -36,16 +37,7 @@ struct Scratch {
 RT_CALL void measureRow(const DenoiseTile& tile, int row, int offset, float* distances) {
     const int from = kDenoiseOrigin + row * kDenoisePitch - kDenoisePatchReach;
     const int to = from + kSteps.at[offset];
-    const float *r0 = tile.guide[0] + from, *g0 = tile.guide[1] + from, *b0 = tile.guide[2] + from;
-    const float *r1 = tile.guide[0] + to, *g1 = tile.guide[1] + to, *b1 = tile.guide[2] + to;
-    const float *v0 = tile.variance + from, *v1 = tile.variance + to;
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC ivdep
-#endif
-    for (int i = 0; i < kDenoiseDistances; ++i) {
-        const float r = r0[i] - r1[i], g = g0[i] - g1[i], b = b0[i] - b1[i];
-        distances[i] = shared::denoiseDistance(r * r + g * g + b * b, v0[i], v1[i]);
-    }
+    measurePixels<kDenoiseDistances>(tile.guide, tile.variance, from, to, distances);
 }
 
 // Sums of a column of patch distances become means of patches, eight pixels at a time.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "Common/Image/Denoise/DenoiseKernel.h"
+#include "Common/Image/Denoise/PixelDistances.h"
 #include "Common/Shared/Denoise/DenoiseGuide.h"
 
 namespace rt::image {
@@ -16,17 +17,10 @@ constexpr int kGuideDistances = kGuideColumns + 2 * shared::kDenoiseGuidePatchRe
 RT_CALL void sumGuideColumns(const DenoiseGuideRow& row, int first, int step, float* sums) {
     for (int i = 0; i < kGuideDistances; ++i) sums[i] = 0;
     for (int dy = -shared::kDenoiseGuidePatchReach; dy <= shared::kDenoiseGuidePatchReach; ++dy) {
-        const int here = first + dy * row.pitch - shared::kDenoiseGuidePatchReach, there = here + step;
-        const float *r0 = row.tones[0] + here, *g0 = row.tones[1] + here, *b0 = row.tones[2] + here;
-        const float *r1 = row.tones[0] + there, *g1 = row.tones[1] + there, *b1 = row.tones[2] + there;
-        const float *v0 = row.variance + here, *v1 = row.variance + there;
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC ivdep
-#endif
-        for (int i = 0; i < kGuideDistances; ++i) {
-            const float r = r0[i] - r1[i], g = g0[i] - g1[i], b = b0[i] - b1[i];
-            sums[i] += shared::denoiseDistance(r * r + g * g + b * b, v0[i], v1[i]);
-        }
+        const int here = first + dy * row.pitch - shared::kDenoiseGuidePatchReach;
+        float distances[kGuideDistances];
+        measurePixels<kGuideDistances>(row.tones, row.variance, here, here + step, distances);
+        for (int i = 0; i < kGuideDistances; ++i) sums[i] += distances[i];
     }
 }
 
