@@ -21,29 +21,14 @@ class EditingTest : public WindowTest {
 
     // Of the panels only that of the objects is folded out.
     void startWith(const fs::path& file) {
-        nlohmann::json open;
-        for (const char* panel : {"scene", "rendering", "camera", "view", "file", "statistics", "settings", "objects"})
-            open[panel] = std::string(panel) == "objects";
-        fs::create_directories(folder_ / "config" / "ray-tracing");
-        store({{"open_panels", open}, {"saw_first_steps", true}, {"show_comparison", false}});
+        storeOpenObjects();
         file_ = file;
         start({"--scene", file_.string(), "--width", "64", "--spp", "4"});
     }
     // The scene is one ball in the picture's middle.
     void startWithBall() { startWith(writeScene("ball.json", "Ball")); }
     // Three of them in a row.
-    void startWithThreeBalls() {
-        nlohmann::json scene = nlohmann::json::parse(std::ifstream(writeScene("balls.json", "Ball")));
-        nlohmann::json ball = scene["objects"][0];
-        ball["radius"] = 0.5;
-        scene["objects"].clear();
-        for (const double x : {-1.5, 0.0, 1.5}) {
-            ball["center"][0] = x;
-            scene["objects"].push_back(ball);
-        }
-        std::ofstream(folder_ / "balls.json") << scene;
-        startWith(folder_ / "balls.json");
-    }
+    void startWithThreeBalls() { startWith(writeThreeBalls("balls.json", "Ball")); }
     // Pixels of the window for a unit of length at the balls, about: the picture is as high as the space for it, and 6
     // units are seen of it.
     static constexpr int kUnit = 133;

@@ -1,10 +1,8 @@
 // Thousands of edits by keyboard and mouse that nobody would make, and all of them undone.
-#include <fstream>
 #include <random>
 #include <string>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "tests/gui/WindowTest.h"
 
@@ -40,20 +38,8 @@ class NightlyRandomEditsTest : public WindowTest {
 INSTANTIATE_TEST_SUITE_P(, NightlyRandomEditsTest, kBothPrograms, nameOfProgram);
 
 void NightlyRandomEditsTest::startWithBalls() {
-    nlohmann::json scene = nlohmann::json::parse(std::ifstream(writeScene("balls.json", "Balls")));
-    nlohmann::json ball = scene["objects"][0];
-    ball["radius"] = 0.5;
-    scene["objects"].clear();
-    for (const double x : {-1.5, 0.0, 1.5}) {
-        ball["center"][0] = x;
-        scene["objects"].push_back(ball);
-    }
-    std::ofstream(folder_ / "balls.json") << scene;
-    nlohmann::json open;
-    for (const char* panel : {"scene", "rendering", "camera", "view", "file", "statistics", "settings", "objects"})
-        open[panel] = std::string(panel) == "objects";
-    std::filesystem::create_directories(folder_ / "config" / "ray-tracing");
-    store({{"open_panels", open}, {"saw_first_steps", true}, {"show_comparison", false}});
+    writeThreeBalls("balls.json", "Balls");
+    storeOpenObjects();
     start({"--scene", (folder_ / "balls.json").string(), "--width", "32", "--spp", "2", "--features", kWhatEditsNeed});
 }
 

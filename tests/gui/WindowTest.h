@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <string>
@@ -73,6 +74,14 @@ class WindowTest : public Desktop, public testing::WithParamInterface<const char
     void store(const nlohmann::json& settings) const {
         std::ofstream(folder_ / "config" / "ray-tracing" / (std::string(GetParam()) + ".json")) << settings;
     }
+    // Settings of a window whose panels are folded, but for that of the objects.
+    void storeOpenObjects() const {
+        nlohmann::json open;
+        for (const char* panel : {"scene", "rendering", "camera", "view", "file", "statistics", "settings", "objects"})
+            open[panel] = std::string(panel) == "objects";
+        std::filesystem::create_directories(folder_ / "config" / "ray-tracing");
+        store({{"open_panels", open}, {"saw_first_steps", true}, {"show_comparison", false}});
+    }
     // A scene file of this title, good to be opened.
     std::filesystem::path writeScene(const std::string& name, const std::string& title) const {
         std::filesystem::path file = folder_ / name;
@@ -81,6 +90,20 @@ class WindowTest : public Desktop, public testing::WithParamInterface<const char
             "background": {"type": "gradient", "bottom": [1, 1, 1], "top": [0.5, 0.7, 1]},
             "materials": {"m": {"type": "lambertian", "albedo": [0.5, 0.5, 0.5]}},
             "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}]})";
+        return file;
+    }
+    // The same with three balls in a row.
+    std::filesystem::path writeThreeBalls(const std::string& name, const std::string& title) const {
+        std::filesystem::path file = writeScene(name, title);
+        nlohmann::json scene = nlohmann::json::parse(std::ifstream(file));
+        nlohmann::json ball = scene["objects"][0];
+        ball["radius"] = 0.5;
+        scene["objects"].clear();
+        for (const double x : {-1.5, 0.0, 1.5}) {
+            ball["center"][0] = x;
+            scene["objects"].push_back(ball);
+        }
+        std::ofstream(file) << scene;
         return file;
     }
 };
