@@ -28,7 +28,8 @@ void PublishedState::setStage(const std::string& stage) {
     });
 }
 
-void PublishedState::fail(const std::exception_ptr& failure, ErrorSource source, bool fatal) try {
+void PublishedState::fail(const std::exception_ptr& failure, ErrorSource source, bool fatal,
+                          const std::function<void(SessionState&)>& change) try {
     std::rethrow_exception(failure);
 } catch (const std::exception& error) {
     keepMemoryReserve(); // that this failure may have used
@@ -39,6 +40,7 @@ void PublishedState::fail(const std::exception_ptr& failure, ErrorSource source,
         if (state.errors.size() > SessionState::kMaxErrors) state.errors.erase(state.errors.begin());
         ++state.errorSerial;
         if (fatal) state.fatal = failure;
+        if (change) change(state);
     });
 }
 

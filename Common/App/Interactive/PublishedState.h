@@ -18,8 +18,10 @@ class PublishedState {
     SessionState copy() const;
     void update(const std::function<void(SessionState&)>& change);
     void setStage(const std::string& stage); // its seconds count from now
-    // What is fatal is for the program to report, which ends with it.
-    void fail(const std::exception_ptr& failure, ErrorSource source = ErrorSource::Other, bool fatal = false);
+    // What is fatal is for the program to report, which ends with it. What else the failure changes, `change`, is seen
+    // together with its message; may be empty.
+    void fail(const std::exception_ptr& failure, ErrorSource source = ErrorSource::Other, bool fatal = false,
+              const std::function<void(SessionState&)>& change = {});
     void say(const std::string& message);
 
     // How the window has answered so far, for the statistics.

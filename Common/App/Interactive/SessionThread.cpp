@@ -130,8 +130,8 @@ void SessionThread::makeEngine(const EngineChoice& choice) {
             state.canPreview = engine_->canPreview();
         });
     } catch (...) {
-        state_.fail(std::current_exception(), ErrorSource::Engine, !engine_);
-        state_.update([](SessionState& state) { ++state.engineFailures; });
+        state_.fail(std::current_exception(), ErrorSource::Engine, !engine_,
+                    [](SessionState& state) { ++state.engineFailures; });
     }
     state_.setStage("");
 }
@@ -167,13 +167,12 @@ void SessionThread::adopt(LoadedScene loaded) {
     const bool isPose = isSameSource && !isEdited && loaded.request.poses > 0;
     const auto failScene = [&](const std::exception_ptr& failure, bool fatal) {
         state_.setStage("");
-        state_.update([&](SessionState& state) {
+        state_.fail(failure, ErrorSource::Scene, fatal, [&](SessionState& state) {
             if (isPose) state.failedPose = loaded.request.poses;
             if (isEdited || isPose) return; // the source itself is well
             state.failedSource = loaded.request.source;
             ++state.sceneFailures;
         });
-        state_.fail(failure, ErrorSource::Scene, fatal);
     };
     if (loaded.failure) {
         const bool canFallBack = !setup_.fallbackScene.empty() && loaded.request.source != setup_.fallbackScene;
