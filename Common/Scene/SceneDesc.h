@@ -63,7 +63,17 @@ struct ImageBackground {
     std::array<double, 9> orientation{1, 0, 0, 0, 1, 0, 0, 0, 1};
     bool operator==(const ImageBackground&) const = default;
 };
-using Background = std::variant<ConstantBackground, GradientBackground, ImageBackground>;
+// A clear sky with its sun above a ground that both shine on: Daylight.h.
+struct SunSkyBackground {
+    double sunElevation = 40;   // degrees above the horizon, [0, 90]
+    double sunAzimuth = 135;    // degrees from -Z by way of +X, as on a compass whose north is -Z
+    double turbidity = 3;       // how hazy the air is, [kLeastTurbidity, kMostTurbidity]
+    glm::dvec3 ground{0.2};     // what it reflects
+    glm::dvec3 factor{1, 1, 1}; // so many times as bright as 100 000 lx for an irradiance of pi
+    bool operator==(const SunSkyBackground&) const = default;
+};
+inline constexpr double kLeastTurbidity = 2, kMostTurbidity = 10;
+using Background = std::variant<ConstantBackground, GradientBackground, ImageBackground, SunSkyBackground>;
 
 // ---- appearance ----------------------------------------------------------------------------------------------------
 

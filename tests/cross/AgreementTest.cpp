@@ -326,6 +326,19 @@ TEST_P(PunctualAgreementTest, SampleForSample) {
     EXPECT_EQ(device().validationMessages(), 0u);
 }
 
+// The image that sun and sky are made into, a sun of three texels in it, and what it lights.
+class SunSkyAgreementTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
+INSTANTIATE_TEST_SUITE_P(Engines, SunSkyAgreementTest, kFirstEngine, engineName);
+INSTANTIATE_TEST_SUITE_P(Nightly, SunSkyAgreementTest, kSecondEngine, engineName);
+
+TEST_P(SunSkyAgreementTest, SampleForSample) {
+    const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/sun-sky.json"), true, true);
+    EnginePair engines(scene, GetParam());
+    EXPECT_GE(agreement(engines.render(pairSettings(1))), minAgreement(*scene));
+    EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
+    EXPECT_EQ(device().validationMessages(), 0u);
+}
+
 // As lights and as what they light, round and elliptic, through lists, the tree, the pipeline and queries.
 class RoundAgreementTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
 INSTANTIATE_TEST_SUITE_P(Engines, RoundAgreementTest, kFirstEngine, engineName);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "Common/Scene/Affine.h"
+#include "Common/Scene/Daylight.h"
 #include "tests/image/AnalyticScenes.h"
 #include "tests/image/Harness.h"
 #include "tests/unit/Oracles.h"
@@ -268,6 +269,33 @@ TEST(Irradiance, UnderTheGradientSky) {
     const dvec3 middle = (dvec3(1) + dvec3(0.5, 0.7, 1.0)) / 2.0;
     const dvec3 slope = (dvec3(0.5, 0.7, 1.0) - dvec3(1)) / 2.0;
     EXPECT_TRUE(isMean(render(desc, smallSettings(4, 2048)), kFloorAlbedo * (middle + slope * (2.0 / 3.0))));
+}
+
+// E = E_sun sin(elevation) + the integral of L cos over the sky, by a quadrature of the formulas around the zenith.
+TEST(Irradiance, UnderSunAndSky) {
+    constexpr int kSteps = 300;
+    for (const double elevation : {15.0, 70.0}) {
+        SceneDesc desc = floorScene();
+        SunSkyBackground sky;
+        sky.sunElevation = elevation;
+        sky.factor = dvec3(2, 1, 0.5);
+        desc.background = sky;
+        const Daylight daylight(sky);
+        const dvec3 sun = sunDirection(sky);
+        dvec3 ofSky(0);
+        for (int i = 0; i < kSteps; ++i) // of the squared cosine, which makes all cells alike
+            for (int j = 0; j < kSteps; ++j) {
+                const double y = std::sqrt((i + 0.5) / kSteps), r = std::sqrt(1 - y * y);
+                const double around = 2 * std::numbers::pi * (j + 0.5) / kSteps;
+                const double toSun = glm::dot(dvec3(r * std::cos(around), y, r * std::sin(around)), sun);
+                ofSky += daylight.sky(y, std::acos(std::clamp(toSun, -1.0, 1.0)));
+            }
+        const dvec3 irradiance = daylight.sun() * sun.y + ofSky * (std::numbers::pi / (kSteps * kSteps));
+        const dvec3 truth = kFloorAlbedo / std::numbers::pi * sky.factor * irradiance;
+        const Estimate estimate = render(desc, smallSettings(4, 4096));
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(estimate.mean[c] / truth[c], 1, 2e-3 + 4 * estimate.standardError[c] / truth[c]) << elevation;
+    }
 }
 
 TEST(Transmittance, OfAnAbsorbingSlab) {

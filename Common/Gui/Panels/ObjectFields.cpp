@@ -191,23 +191,32 @@ glm::dvec3 meanOf(const scene::Background& sky) {
         return 0.5 * (gradient->bottom + gradient->top);
     return glm::dvec3(0.5);
 }
+scene::Background skyOfKind(std::size_t kind, const scene::Background& before) {
+    if (kind == 0) return scene::ConstantBackground{meanOf(before)};
+    if (kind == 1) return scene::GradientBackground{};
+    return scene::SunSkyBackground{};
+}
 
 // Of kinds, those that can be had at once; an image has to be chosen first.
 bool drawSkyKind(Gui& gui, scene::Background& sky) {
-    constexpr const char* kKinds[] = {"Color", "Gradient", "Image"}; // in the order of the variant
+    constexpr const char* kKinds[] = {"Color", "Gradient", "Image", "Sun and sky"}; // in the order of the variant
+    constexpr std::size_t kImageKind = 2;
     static_assert(std::variant_size_v<scene::Background> == std::size(kKinds));
-    row("Kind", "One color from everywhere, one from above and one from below, or an image of all directions");
+    row("Kind",
+        "One color from everywhere, one from above and one from below, an image of all directions, or the sun in "
+        "a clear sky");
     bool changed = false;
     if (ImGui::BeginCombo("##kind", kKinds[sky.index()])) {
-        if (ImGui::Selectable(kKinds[0], sky.index() == 0) && sky.index() != 0) {
-            sky = scene::ConstantBackground{meanOf(sky)};
-            changed = true;
+        const std::size_t before = sky.index();
+        for (std::size_t kind = 0; kind < std::size(kKinds); ++kind) {
+            if (!ImGui::Selectable(kKinds[kind], kind == before) || kind == before) continue;
+            if (kind == kImageKind) {
+                askImage(gui, setSkyImage);
+            } else {
+                sky = skyOfKind(kind, sky);
+                changed = true;
+            }
         }
-        if (ImGui::Selectable(kKinds[1], sky.index() == 1) && sky.index() != 1) {
-            sky = scene::GradientBackground{};
-            changed = true;
-        }
-        if (ImGui::Selectable(kKinds[2], sky.index() == 2) && sky.index() != 2) askImage(gui, setSkyImage);
         ImGui::EndCombo();
     }
     if (const auto file = takeDroppedImage(gui)) setSkyImage(gui, *file);
@@ -227,6 +236,19 @@ bool drawSkyImage(Gui& gui, scene::ImageBackground& image) {
     return (changed || isTurned) && !dropped;
 }
 
+bool drawSunSky(scene::SunSkyBackground& sky) {
+    bool changed = sliderReal("Sun elevation", "Above the horizon, in degrees", sky.sunElevation, 0, 90, "%.1f");
+    changed |= sliderReal("Sun azimuth", "Degrees from -Z by way of +X, as on a compass whose north is -Z",
+                          sky.sunAzimuth, -360, 360, "%.1f");
+    changed |= sliderReal("Turbidity", "Haze of the air: 2 is very clear, 3 a fine day, 10 milky", sky.turbidity,
+                          scene::kLeastTurbidity, scene::kMostTurbidity, "%.2f");
+    changed |= inputLight("Strength", "Sun and sky are so many times as bright as the world's", sky.factor);
+    ImGui::PushID("ground");
+    changed |= inputColor("Ground", "What the ground below the horizon reflects of both", sky.ground);
+    ImGui::PopID();
+    return changed;
+}
+
 } // namespace
 
 void drawSkyFields(Gui& gui) {
@@ -241,8 +263,10 @@ void drawSkyFields(Gui& gui) {
         changed |= inputLight("Zenith", "Radiance from above", gradient->top);
         ImGui::PopID();
         changed |= inputLight("Nadir", "Radiance from below", gradient->bottom);
+    } else if (auto* image = std::get_if<scene::ImageBackground>(&sky)) {
+        changed |= drawSkyImage(gui, *image);
     } else {
-        changed |= drawSkyImage(gui, std::get<scene::ImageBackground>(sky));
+        changed |= drawSunSky(std::get<scene::SunSkyBackground>(sky));
     }
     ImGui::PopID();
     if (changed) editScene(gui, "Sky", {scene::SetBackground{sky}}, !isOther);

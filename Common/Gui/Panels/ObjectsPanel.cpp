@@ -87,6 +87,9 @@ void drawAddMenu(Gui& gui) {
         addObject(gui, "spot light", scene::SpotLightDesc{above, {0, -1, 0}, 4.0 * bright, 0, 45}, {});
     if (ImGui::MenuItem("Directional light"))
         addObject(gui, "directional light", scene::DirectionalLightDesc{{-1, -2, -1}, glm::dvec3(2)}, {});
+    if (ImGui::MenuItem("Sun and sky"))
+        editScene(gui, "Sun and sky", {scene::SetBackground{scene::SunSkyBackground{}}}, false);
+    tooltip("In place of the sky that there is");
     if (ImGui::MenuItem("Medium")) {
         scene::MediumDesc medium;
         medium.boundary = scene::SphereBoundary{middle, 2 * size};

@@ -18,6 +18,7 @@
 #include "Common/Scene/Compiler/SceneHash.h"
 #include "Common/Scene/Compiler/SkyMaps.h"
 #include "Common/Scene/Compiler/SpecularCasters.h"
+#include "Common/Scene/Compiler/SunSkyMap.h"
 #include "Common/Scene/Compiler/TextureTable.h"
 #include "Common/Scene/Compiler/TexturesInUse.h"
 #include "Common/Scene/Counted.h"
@@ -301,17 +302,24 @@ class Compiler {
             globals.skyKind = shared::kSkyGradient;
             globals.skyTop = shared::vec3(gradient->top);
             globals.skyBottom = shared::vec3(gradient->bottom);
+        } else if (const auto* image = std::get_if<ImageBackground>(&desc_.background)) {
+            ImageTexture source;
+            source.file = image->file;
+            globals.skyImage = textures_.image(source);
+            if (mustBeMapped(*image)) globals.skyImage = appendSkyMap(*image, globals.skyImage, *out_);
+            emitSkyImage(image->factor, image->rotation);
         } else {
-            const auto& sky = std::get<ImageBackground>(desc_.background);
-            ImageTexture image;
-            image.file = sky.file;
-            globals.skyImage = textures_.image(image);
-            if (mustBeMapped(sky)) globals.skyImage = appendSkyMap(sky, globals.skyImage, *out_);
-            globals.skyTop = shared::vec3(sky.factor);
-            const double turn = glm::radians(sky.rotation);
-            globals.skyTurn = shared::vec2(std::cos(turn), std::sin(turn));
-            globals.skyKind = appendSkyLight(bounds_, *out_) ? shared::kSkyImage : shared::kSkyBlack;
+            const auto& sky = std::get<SunSkyBackground>(desc_.background);
+            globals.skyImage = appendSunSkyMap(sky, *out_);
+            emitSkyImage(sky.factor, sunSkyRotation(sky));
         }
+    }
+    void emitSkyImage(const glm::dvec3& factor, double rotation) {
+        shared::SceneGlobals& globals = out_->globals;
+        globals.skyTop = shared::vec3(factor);
+        const double turn = glm::radians(rotation);
+        globals.skyTurn = shared::vec2(std::cos(turn), std::sin(turn));
+        globals.skyKind = appendSkyLight(bounds_, *out_) ? shared::kSkyImage : shared::kSkyBlack;
     }
 
     void addTarget(const TargetDesc& target, const Affine& toWorld) {

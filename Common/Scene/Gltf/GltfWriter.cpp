@@ -15,6 +15,7 @@
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/Builtin/Placeholders.h"
 #include "Common/Scene/Counted.h"
+#include "Common/Scene/Daylight.h"
 #include "Common/Scene/Gltf/GltfMeshWriter.h"
 #include "Common/Scene/Gltf/GltfPower.h"
 #include "Common/Scene/Obj/ObjLoader.h"
@@ -67,6 +68,7 @@ class SceneToGltf {
     std::vector<std::string> run() {
         addAll();
         addCameras();
+        addSky();
         OrderedJson scene = {{"nodes", roots_}};
         if (!scene_.title.empty()) scene["name"] = scene_.title;
         document_.root()["scene"] = 0;
@@ -312,9 +314,20 @@ class SceneToGltf {
             if (camera != same) addCamera(camera->second, camera->first);
     }
 
+    // Of a sun and sky the sun is a light that glTF has.
+    void addSky() {
+        const auto* sky = std::get_if<SunSkyBackground>(&scene_.background);
+        if (sky != nullptr) {
+            const glm::dvec3 irradiance = sky->factor * Daylight(*sky).sun();
+            addShape(DirectionalLightDesc{-sunDirection(*sky), irradiance}, Place{}, roots_);
+            notices_.leaveOut("the sky but for its sun", "skies");
+        } else if (!hasStudio_ && scene_.background != Background(ConstantBackground{})) {
+            notices_.leaveOut("the sky", "skies");
+        }
+    }
+
     void noticeRest() {
         if (hidden_ > 0) notices_.add(counted(hidden_, "hidden object is", "hidden objects are") + " left out");
-        if (!hasStudio_ && scene_.background != Background(ConstantBackground{})) notices_.leaveOut("the sky", "skies");
         if (const std::size_t count = scene_.importanceTargets.size(); count > 0)
             notices_.leaveOut("one importance target", "importance targets", count);
     }

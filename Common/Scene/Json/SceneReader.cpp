@@ -1,9 +1,6 @@
-// Reading of scene files: the scene as a whole, camera, background, and what its parts refer to.
+// Reading of scene files: the scene as a whole, camera, and what its parts refer to.
 #include "Common/Scene/Json/SceneReader.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <optional>
@@ -12,8 +9,6 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
 #include "Common/Core/OtherCase.h"
 #include "Common/Core/Paths.h"
@@ -21,6 +16,7 @@
 #include "Common/Core/ReadFile.h"
 #include "Common/Scene/Json/Import.h"
 #include "Common/Scene/Json/SceneJson.h"
+#include "Common/Scene/Json/SkyJson.h"
 
 namespace rt::scene {
 
@@ -47,42 +43,6 @@ CameraDesc readCamera(const JsonNode& node) {
     if (!(glm::length(glm::cross(view, camera.up)) > 1e-9 * glm::length(view) * glm::length(camera.up)))
         node.fail("look_from and look_at must differ, and up must not be 0 or parallel to the view");
     return camera;
-}
-
-bool isTurn(const std::array<double, 9>& rows) {
-    const glm::dmat3 map(rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8]);
-    const glm::dmat3 product = glm::transpose(map) * map;
-    for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r)
-            if (!(std::abs(product[c][r] - (c == r ? 1 : 0)) <= 1e-6)) return false;
-    return true;
-}
-
-Background readBackground(const JsonNode& node, const SceneReferences& references) {
-    const std::string type = node.at("type").oneOf({"constant", "gradient", "image"});
-    if (type == "constant") {
-        node.expectKeys({"type", "color"});
-        return ConstantBackground{node.at("color").vectorWithin(0, kLargest)};
-    }
-    if (type == "gradient") {
-        node.expectKeys({"type", "bottom", "top"});
-        return GradientBackground{node.at("bottom").vectorWithin(0, kLargest),
-                                  node.at("top").vectorWithin(0, kLargest)};
-    }
-    node.expectKeys({"type", "file", "factor", "rotation", "projection", "orientation"});
-    ImageBackground image;
-    image.file = references.file(node.at("file"), false);
-    if (const auto factor = node.find("factor")) image.factor = factor->vectorWithin(0, kLargest);
-    if (const auto rotation = node.find("rotation")) image.rotation = rotation->number();
-    if (const auto projection = node.find("projection"))
-        if (projection->oneOf({"latitude-longitude", "pbrt"}) == "pbrt") image.projection = SkyProjection::Pbrt;
-    if (const auto orientation = node.find("orientation")) {
-        const std::vector<double> rows = orientation->numbers(9);
-        if (rows.size() != image.orientation.size()) orientation->failValue("9 numbers: three rows of three");
-        std::copy(rows.begin(), rows.end(), image.orientation.begin());
-        if (!isTurn(image.orientation)) orientation->failValue("rows of unit length at right angles to each other");
-    }
-    return image;
 }
 
 RenderDefaults readRender(const JsonNode& node) {
@@ -116,7 +76,7 @@ SceneDesc readScene(const JsonNode& root, SceneReferences references, const Long
     if (const auto section = root.find("cameras"))
         section->forEachMember(
             [&](const std::string& name, const JsonNode& node) { scene.cameras[name] = readCamera(node); });
-    if (const auto node = root.find("background")) scene.background = readBackground(*node, references);
+    if (const auto node = root.find("background")) scene.background = readSky(*node, references);
     if (const auto section = root.find("textures"))
         section->forEachMember([&](const std::string& name, const JsonNode& node) {
             scene.textures[name] = readTexture(node, references);

@@ -7,6 +7,7 @@
 #include "Common/Core/Printable.h"
 #include "Common/Scene/Json/PrincipledType.h"
 #include "Common/Scene/Json/SceneJson.h"
+#include "Common/Scene/Json/SkyJson.h"
 #include "Common/Scene/Json/TextureTypes.h"
 #include "Common/Scene/MaterialTypes.h"
 
@@ -128,20 +129,6 @@ OrderedJson json(const CameraDesc& camera) {
             {"vertical_fov", camera.verticalFov},
             {"defocus_angle", camera.defocusAngle},
             {"focus_distance", camera.focusDistance}};
-}
-
-OrderedJson json(const Background& background) {
-    if (const auto* constant = std::get_if<ConstantBackground>(&background))
-        return {{"type", "constant"}, {"color", json(constant->color)}};
-    if (const auto* gradient = std::get_if<GradientBackground>(&background))
-        return {{"type", "gradient"}, {"bottom", json(gradient->bottom)}, {"top", json(gradient->top)}};
-    const auto& image = std::get<ImageBackground>(background);
-    OrderedJson out = {{"type", "image"}, {"file", image.file}};
-    setUnless(out, "factor", image.factor, glm::dvec3(1));
-    setUnless(out, "rotation", image.rotation, 0.0);
-    if (image.projection == SkyProjection::Pbrt) out["projection"] = "pbrt";
-    if (image.orientation != ImageBackground().orientation) out["orientation"] = image.orientation;
-    return out;
 }
 
 // ---- appearance ----------------------------------------------------------------------------------------------------
@@ -371,7 +358,7 @@ OrderedJson jsonOf(const SceneDesc& scene) {
     setUnless(out, "title", scene.title, std::string());
     out["camera"] = json(scene.camera);
     setSection(out, "cameras", scene.cameras);
-    out["background"] = json(scene.background);
+    out["background"] = skyJson(scene.background);
     if (scene.render != RenderDefaults()) out["render"] = {{"aspect", scene.render.aspect}};
     setSection(out, "textures", scene.textures);
     setSection(out, "materials", scene.materials);
