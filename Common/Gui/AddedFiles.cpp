@@ -15,6 +15,7 @@
 #include "Common/Core/TextSearch.h"
 #include "Common/Gui/Gui.h"
 #include "Common/Gui/Widgets.h"
+#include "Common/Scene/Edit/EditCheck.h"
 #include "Common/Scene/Edit/MaterialTransfer.h"
 
 namespace rt::gui {
@@ -140,8 +141,10 @@ void setTexture(Gui& gui, const TextureSlot& slot, const std::string& file) {
     scene::MaterialDesc material = found->second;
     slot.set(material, textureOf(scene, file, slot.isColor, edits));
     edits.push_back(scene::SetMaterial{slot.material, std::move(material)});
-    if (editScene(gui, "Texture of " + slot.material, std::move(edits), false))
-        gui.say("\"" + slot.material + "\" has now " + shortName(file));
+    if (!editScene(gui, "Texture of " + slot.material, std::move(edits), false)) return;
+    const std::size_t lacking = slot.needsTangents ? scene::meshesWithoutTangents(scene, slot.material) : 0;
+    gui.say("\"" + slot.material + "\" has now " + shortName(file) +
+            (lacking > 0 ? ", which meshes without tangents do not show: " + std::to_string(lacking) : ""));
 }
 
 void dropImage(Gui& gui, const std::string& file, const std::array<std::uint32_t, 2>& pixel) {

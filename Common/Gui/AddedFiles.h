@@ -17,6 +17,7 @@ struct TextureSlot {
     std::string material;
     bool isColor = true; // else the image holds numbers
     std::function<void(scene::MaterialDesc&, const std::string& texture)> set;
+    bool needsTangents = false; // the numbers are directions in the frame of the surface
 };
 
 // What the window keeps of it between frames.

@@ -334,6 +334,23 @@ TEST(SceneDocument, RefusesWhatCannotBeInOneSentence) {
     EXPECT_EQ(materialUses(scene, "glass"), 3u);
 }
 
+TEST(SceneDocument, MeshesWithoutTangentsAreCounted) {
+    SceneDesc scene;
+    const auto add = [&scene](auto data, const char* material) {
+        data.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+        data.triangles = {{0, 1, 2}};
+        scene.prototypes["part"].push_back({MeshDesc{Boxed(std::move(data)), material}});
+    };
+    MeshData with;
+    with.tangents.assign(3, {1, 0, 0, 1});
+    add(MeshData(), "m");
+    add(FloatMeshData(), "m");
+    add(with, "m");
+    add(MeshData(), "other");
+    EXPECT_EQ(meshesWithoutTangents(scene, "m"), 2u);
+    EXPECT_EQ(meshesWithoutTangents(scene, "none"), 0u);
+}
+
 // From an empty scene, one object after the other: what is saved is the scene, in each of its arrays.
 TEST(SceneDocument, BuiltinScenesAreRebuiltByHand) {
     for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box", "one-weekend-test", "next-week-final"}) {

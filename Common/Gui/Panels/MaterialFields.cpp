@@ -58,7 +58,7 @@ void drawImageButton(MaterialRows& rows, const std::string& label, bool isColor,
         else
             source = texture;
     };
-    const TextureSlot slot{rows.name, isColor, set};
+    const TextureSlot slot{rows.name, isColor, set, std::is_same_v<Source, std::string>};
     if (const auto file = takeDroppedImage(rows.gui)) {
         rows.droppedOn = slot;
         rows.droppedImage = *file;
@@ -81,10 +81,21 @@ bool drawTextureName(const std::string& label, const char* help, const std::stri
     ImGui::TextDisabled("%s", elided("texture " + texture, room).c_str());
     tooltip(printable(texture).c_str());
     ImGui::SameLine(room + ImGui::GetStyle().ItemInnerSpacing.x); // from the group's left end
-    const bool isRemoved = iconButton("none", Icon::Close, "One value in place of the texture");
+    const bool isRemoved = iconButton("none", Icon::Close, "Without the texture");
     ImGui::EndGroup();
     ImGui::PopID();
     return isRemoved;
+}
+
+// Where there is none yet; it can be let go above this.
+void drawNoTexture(const std::string& label, const char* help) {
+    row(label.c_str(), help);
+    const float room = ImGui::GetContentRegionAvail().x - imageButtonRoom();
+    ImGui::BeginGroup();
+    ImGui::TextDisabled("no texture");
+    ImGui::SameLine(room);
+    ImGui::Dummy({0, ImGui::GetFrameHeight()});
+    ImGui::EndGroup();
 }
 
 template <typename Find>
@@ -137,7 +148,19 @@ struct PrincipledField {
         return numberField(label, help, value, std::max(parameter.minimum, -4.0), maximum);
     }
     bool operator()(bool& value) const { return checkbox(label.c_str(), help, value); }
-    bool operator()(std::string&) const { return false; }           // names of textures
+    // A map of directions: of normals, or of the tangent that facets are rougher along.
+    bool operator()(std::string& texture) const {
+        bool changed = false;
+        if (texture.empty()) {
+            drawNoTexture(label, help);
+        } else if (drawTextureName(label, help, texture)) {
+            rows.freed.push_back(texture);
+            texture.clear();
+            changed = true;
+        }
+        drawImageButton(rows, label, false, find());
+        return changed;
+    }
     bool operator()(std::optional<double>&) const { return false; } // what is mostly left out
 };
 

@@ -293,4 +293,19 @@ std::size_t textureUses(const SceneDesc& scene, const std::string& texture) {
     return uses;
 }
 
+std::size_t meshesWithoutTangents(const SceneDesc& scene, const std::string& material) {
+    std::size_t count = 0;
+    forEachObject(scene, [&](const ObjectDesc& object) {
+        const auto* mesh = std::get_if<MeshDesc>(&object.shape);
+        if (mesh == nullptr || mesh->material != material) return;
+        if (const auto* data = std::get_if<Boxed<MeshData>>(&mesh->source))
+            count += (*data)->tangents.empty();
+        else if (const auto* floats = std::get_if<Boxed<FloatMeshData>>(&mesh->source))
+            count += (*floats)->tangents.empty();
+        else
+            ++count; // a file of OBJ has them where its own materials want them
+    });
+    return count;
+}
+
 } // namespace rt::scene

@@ -12,5 +12,7 @@ void checkEdit(const SceneDesc& scene, const SceneEdit& edit);
 std::size_t materialUses(const SceneDesc& scene, const std::string& name);
 // How often materials, other textures and media refer to the texture.
 std::size_t textureUses(const SceneDesc& scene, const std::string& name);
+// How many meshes that name the material show no map of directions, as normals are, for want of tangents.
+std::size_t meshesWithoutTangents(const SceneDesc& scene, const std::string& material);
 
 } // namespace rt::scene
