@@ -152,16 +152,14 @@ void SessionLink::showTitle() {
     if (std::exchange(title_, title) != title) gui_.window.setTitle(title);
 }
 
-// A scene file that has changed is read again, once it stays as it is for a moment: it may still be being written.
+// A scene is read again when its file has changed, or that of a model in it: edits of the model stand in its file.
 void SessionLink::followFile() {
     constexpr double kSeconds = 0.5; // between two looks
     if (sinceLook_.seconds() < kSeconds) return;
     sinceLook_ = {};
-    const std::optional<app::FileFingerprint> mark = app::markOf(gui_.state.source);
-    const bool isSettled = std::exchange(seenMark_, mark) == mark;
-    if (!mark || !isSettled || mark == gui_.state.sourceMark || mark == askedMark_ || mark == gui_.editor.savedMark())
-        return;
-    if (gui_.session.reopen(mark->file)) askedMark_ = mark; // once, also where it does not load
+    std::vector<app::WatchedFile> files{{gui_.state.source, {gui_.state.sourceMark, gui_.editor.savedMark()}}};
+    for (const app::FileFingerprint& mark : gui_.state.modelMarks) files.push_back({mark.file, {mark}});
+    if (watch_.isDue(files) && gui_.session.reopen(gui_.state.source)) watch_.setAsked();
 }
 
 void SessionLink::send(bool hasFocus) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "Common/App/Interactive/SceneFileWatch.h"
 #include "Common/App/Options/Options.h"
 #include "Common/Gui/App.h"
 #include "Common/Gui/Gui.h"
@@ -59,8 +60,7 @@ class SessionLink {
     Gui& gui_;
     Presenter& presenter_;
     Memory now_;
-    std::optional<app::FileFingerprint> seenMark_,
-        askedMark_; // of the scene's file: at the last look; when it was read again
+    app::SceneFileWatch watch_; // of the scene's files
     app::Stopwatch sinceLook_;
     std::string title_;     // of the window
     std::string reference_; // to be loaded when there is something to compare with; empty: none or done

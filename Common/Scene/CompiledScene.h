@@ -34,6 +34,7 @@ struct CompiledScene : shared::SceneArraysOf<std::vector> {
     Motion motion;
     Origins origins;                        // of its primitives, for editors
     std::vector<std::string> materialNames; // of each material, as the scene or its model has it
+    std::vector<std::string> modelFiles;    // of models that it has taken in
     std::vector<std::string> notices;       // one line each: dropped primitives, stand-ins for missing assets
 };
 

@@ -100,6 +100,7 @@ ViewportId InteractiveSession::openViewport(const RenderRequest& request, const 
     loaded.request.poses = now.scenePoses;
     loaded.poses = now.poses;
     loaded.mark = now.sourceMark;
+    loaded.models = now.modelMarks;
     loaded.seconds = now.seconds.load;
     loaded.reads = now.sceneReads;
     const ViewportId id = add(std::move(setup));

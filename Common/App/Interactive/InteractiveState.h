@@ -116,6 +116,7 @@ struct SessionState {
     scene::Shutter shutter;                    // likewise, though edits are shown at one instant
     PoseScene poses;                           // as LoadedScene has it
     std::optional<FileFingerprint> sourceMark; // of that file, as it was read
+    std::vector<FileFingerprint> modelMarks;   // of the files of models that it has taken in, as they were read
     std::uint64_t sceneLoads = 0;              // grows with each that was loaded, also anew
     std::uint64_t sceneReads = 0;              // grows with each that was read from its source
     std::uint64_t sceneEdits = 0;              // which of the edits it has, as SceneRequest counts; 0: none

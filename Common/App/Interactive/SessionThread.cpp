@@ -199,6 +199,7 @@ void SessionThread::adopt(LoadedScene loaded) {
         return failScene(std::current_exception(), !loaded_.scene);
     }
     if (isEdited) loaded.mark = loaded_.mark; // the file is what it was when it was read
+    if (isEdited || isPose) keepMarks(loaded_.models, loaded.models);
     if (adoptCamera(loaded)) {
         ++sceneSerial_;
         if (activity_ == Activity::Stopped && !isPose) setActivity(Activity::Rendering);
@@ -220,6 +221,7 @@ void SessionThread::adopt(LoadedScene loaded) {
         state.scenePoses = loaded_.request.poses;
         state.sceneCamera = camera_;
         state.sourceMark = loaded_.mark;
+        state.modelMarks = loaded_.models;
         state.seconds.load = loaded_.seconds;
         ++state.sceneLoads;
         state.sceneReads = loaded_.reads;

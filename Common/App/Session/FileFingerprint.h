@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace rt::app {
 
@@ -21,6 +23,26 @@ inline std::optional<FileFingerprint> markOf(const std::string& file) {
     FileFingerprint mark{file, std::filesystem::last_write_time(file, missing), 0};
     if (!missing) mark.bytes = std::filesystem::file_size(file, missing);
     return missing ? std::nullopt : std::optional(std::move(mark));
+}
+
+// Of files that have been read since `begin`. One that has been written meanwhile may have been read as it was before,
+// and gets a mark that it does not have.
+inline std::vector<FileFingerprint> marksOfRead(const std::vector<std::string>& files,
+                                                std::filesystem::file_time_type begin) {
+    std::vector<FileFingerprint> marks;
+    for (const std::string& file : files) {
+        std::optional<FileFingerprint> mark = markOf(file);
+        if (mark && mark->written >= begin) mark->bytes = ~std::uintmax_t{0};
+        marks.push_back(mark.value_or(FileFingerprint{file}));
+    }
+    return marks;
+}
+
+// Leaves files that were known before the marks that they had.
+inline void keepMarks(const std::vector<FileFingerprint>& before, std::vector<FileFingerprint>& marks) {
+    for (FileFingerprint& mark : marks)
+        for (const FileFingerprint& known : before)
+            if (known.file == mark.file) mark = known;
 }
 
 } // namespace rt::app

@@ -1,5 +1,6 @@
 #include "Common/App/Session/SceneLoader.h"
 
+#include <filesystem>
 #include <iterator>
 #include <utility>
 
@@ -53,6 +54,7 @@ LoadedScene SceneLoader::load(const SceneRequest& request) {
     LoadedScene result;
     result.request = request;
     result.mark = markOf(request.source);
+    const auto begin = std::filesystem::file_time_type::clock::now();
     const Stopwatch watch;
     try {
         if (request.edits > 0)
@@ -65,6 +67,7 @@ LoadedScene SceneLoader::load(const SceneRequest& request) {
         result.failure = std::current_exception();
     }
     result.seconds = watch.seconds();
+    if (result.scene) result.models = marksOfRead(result.scene->modelFiles, begin);
     return result;
 }
 

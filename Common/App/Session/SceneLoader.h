@@ -24,6 +24,7 @@ struct LoadedScene {
     std::exception_ptr failure;
     SceneRequest request;
     std::optional<FileFingerprint> mark; // of its file, as it was before it was read
+    std::vector<FileFingerprint> models; // of the files of models that it has taken in, likewise
     double seconds = 0;
     PoseScene poses;         // at other times than the request's, where its shutter is open; none: nothing moves
     std::uint64_t reads = 0; // of scenes from their sources, this one included; counted by who shows them

@@ -70,7 +70,7 @@ void drawScenePanel(Gui& gui) {
     drawErrorOf(gui, app::ErrorSource::Scene);
     {
         const Disabled rest(builtin != nullptr, "the scene is built in, and no file");
-        checkbox("Reload on change", "Reads a scene file again whenever it has changed on the disk",
+        checkbox("Reload on change", "Reads a scene file again whenever it, or a model in it, has changed on the disk",
                  gui.settings.reloadScenes);
     }
     if (gui.state.scene) {

@@ -52,6 +52,7 @@ class Compiler {
         out_->camera = camera_;
         out_->cameras = desc_.cameras;
         out_->motion = desc_.motion;
+        for (const auto& [name, model] : desc_.models) out_->modelFiles.push_back(model.file);
         out_->defaults = desc_.render;
         out_->origin = desc_.camera.lookFrom;
         out_->globals.origin = shared::vec3(out_->origin);
