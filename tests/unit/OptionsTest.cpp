@@ -1,76 +1,16 @@
-// Flags, environment and configuration file: values, defaults, order of precedence and the one line that each error is.
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
+// Flags: values, defaults, what contradicts, and the one line that each error is.
 #include <iostream>
 #include <set>
 #include <sstream>
 
-#include <gtest/gtest.h>
-
-#include "Common/App/Options/Options.h"
 #include "Common/App/Session/FeatureNames.h"
-#include "Common/Core/Error.h"
-#include "Common/Manual/Page.h"
 #include "Common/Shared/Base/Features.h"
-#include "tests/Environment.h"
+#include "tests/unit/OptionsFixture.h"
 
 namespace rt::app {
 namespace {
 
-using test::setVariable;
-
-// A user without configuration whose environment says nothing.
-class OptionsTest : public testing::Test {
-  protected:
-    void SetUp() override {
-        const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-        home_ = std::filesystem::path(testing::TempDir()) / ("options-" + test);
-        std::filesystem::remove_all(home_);
-        std::filesystem::create_directories(home_ / "ray-tracing");
-        setVariable("XDG_CONFIG_HOME", home_.string());
-        setVariable("RT_THREADS", "");
-    }
-    void TearDown() override {
-        setVariable("RT_THREADS", "");
-        std::filesystem::remove_all(home_);
-    }
-
-    static std::optional<Options> read(std::vector<std::string> arguments) {
-        std::ostringstream out;
-        return parseOptions("ray-tracing-cpu", std::move(arguments), out);
-    }
-    // Of a headless render.
-    static Options render(std::vector<std::string> arguments) {
-        arguments.push_back("--headless");
-        return read(std::move(arguments)).value();
-    }
-    static Options sized(std::vector<std::string> arguments, double sceneAspect = 1) {
-        Options options = render(std::move(arguments));
-        settleImageSize(options, "scene", sceneAspect);
-        return options;
-    }
-    // The message of the usage error, which is one line.
-    static std::string error(std::vector<std::string> arguments) {
-        arguments.push_back("--headless");
-        try {
-            Options options = read(std::move(arguments)).value();
-            settleImageSize(options, "scene", 1);
-        } catch (const UsageError& error) {
-            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-            return error.what();
-        }
-        return "no error";
-    }
-    std::string writeFile(const std::string& name, const std::string& text) const {
-        const std::filesystem::path path = home_ / name;
-        std::ofstream(path) << text;
-        return path.string();
-    }
-
-    std::filesystem::path home_;
-};
+class OptionsTest : public OptionsFixture {};
 
 TEST_F(OptionsTest, AnAspectOutOfRangeIsOfWhoGaveIt) {
     EXPECT_THROW(sized({}, 1e-6), InputError);
@@ -323,128 +263,6 @@ TEST_F(OptionsTest, FeatureNames) {
             EXPECT_EQ(featureNames(bits).back(), name);
         }
     }
-}
-
-// A configuration file speaks of all renders: those that cannot be denoised are made all the same.
-TEST_F(OptionsTest, AFileMayAskForDenoising) {
-    const auto asked = [this](const std::string& value, std::vector<std::string> more) {
-        more.insert(more.end(), {"--config", writeFile("c.json", "{\"denoise\": " + value + "}")});
-        return render(std::move(more));
-    };
-    for (const char* value : {"true", "\"on\""}) EXPECT_TRUE(asked(value, {"-o", "a.pfm"}).wants(Aov::Denoised));
-    for (const char* value : {"false", "\"off\""}) EXPECT_FALSE(asked(value, {"-o", "a.pfm"}).denoises()) << value;
-    EXPECT_TRUE(asked("\"only\"", {"-o", "a.pfm"}).denoisedOnly);
-    EXPECT_FALSE(asked("true", {"-o", "a.pfm", "--denoise", "off"}).denoises());
-    EXPECT_FALSE(asked("\"only\"", {"-o", "a.pfm", "--spp", "1"}).denoises());
-    EXPECT_FALSE(asked("true", {"-o", "a.pfm", "--tiles", "1/2"}).denoises());
-    EXPECT_FALSE(asked("true", {"--stats", "s.json"}).denoises());
-    EXPECT_FALSE(read({"--config", writeFile("c.json", R"({"denoise": true})"), "--window"}).value().denoises());
-    EXPECT_NE(error({"--config", writeFile("c.json", R"({"denoise": "much"})")}).find("c.json"), std::string::npos);
-}
-
-TEST_F(OptionsTest, EnvironmentCountsBetweenFlagAndFile) {
-    const std::string file = writeFile("c.json", R"({"threads": 5, "spp": 11})");
-    EXPECT_EQ(render({"--config", file}).threads, 5u);
-    setVariable("RT_THREADS", "3");
-    EXPECT_EQ(render({"--config", file}).threads, 3u);
-    EXPECT_EQ(render({"--config", file}).settings.spp, 11u);
-    EXPECT_EQ(render({"--config", file, "--threads", "2"}).threads, 2u);
-    setVariable("RT_THREADS", "many");
-    EXPECT_EQ(error({}), "RT_THREADS many: must be a whole number from 0 to 4096");
-}
-
-// What a line said, or was refused for, is forgotten with the next one.
-TEST_F(OptionsTest, AParserReadsEachLineAsIfItWereTheFirst) {
-    OptionParser parser("ray-tracing-cpu");
-    std::ostringstream out;
-    const std::string bad = writeFile("bad.toml", "# mine\nspp = 0\n");
-    EXPECT_THROW(parser.parse({"--config", bad}, out), UsageError);
-    try {
-        parser.parse({"--no-config", "--spp", "0"}, out);
-        ADD_FAILURE() << "taken";
-    } catch (const UsageError& error) { // no longer of the file
-        EXPECT_EQ(std::string(error.what()).rfind("--spp 0: ", 0), 0u) << error.what();
-    }
-    const Options full = parser
-                             .parse({"--no-config", "--headless", "--spp", "7", "--width=9", "--region", "1,2,3,4",
-                                     "-o", "a.png", "-o", "b.png", "--aov", "depth", "--time-limit", "3", "--quiet"},
-                                    out)
-                             .value();
-    EXPECT_EQ(full.outputs, (std::vector<std::string>{"a.png", "b.png"}));
-    EXPECT_THROW(parser.parse({"--no-config", "--unknown"}, out), UsageError);
-    EXPECT_FALSE(parser.parse({"--version"}, out));
-
-    const Options none = parser.parse({"--headless"}, out).value();
-    EXPECT_EQ(none.settings, RenderSettings{});
-    EXPECT_EQ(none.size, SizeRequest{});
-    EXPECT_TRUE(none.keepsUserFiles && !none.quiet && !none.region && !none.timeLimit);
-    EXPECT_TRUE(none.outputs.empty() && none.aovs.empty() && none.given.empty());
-}
-
-TEST_F(OptionsTest, ConfigurationFiles) {
-    const std::string json =
-        writeFile("c.json", R"({"spp": 5, "sampler": "stratified", "quiet": true, "aov": ["depth", "albedo"],
-                                "output": ["a.png", "b.exr"], "exposure": -0.5})");
-    const std::string toml =
-        writeFile("c.toml",
-                  "# ours\nspp = 5\nsampler = \"stratified\"\nquiet = true\naov = [\"depth\", \"albedo\"]\n"
-                  "output = [\"a.png\", \"b.exr\"]\nexposure = -0.5\n");
-    for (const std::string& file : {json, toml}) {
-        const Options options = render({"--config", file});
-        EXPECT_EQ(options.settings.spp, 5u);
-        EXPECT_EQ(options.settings.sampler, SamplerKind::Stratified);
-        EXPECT_TRUE(options.quiet);
-        EXPECT_EQ(options.aovs, (std::vector<Aov>{Aov::Depth, Aov::Albedo}));
-        EXPECT_EQ(options.outputs, (std::vector<std::string>{"a.png", "b.exr"}));
-        EXPECT_EQ(options.exposure, -0.5f);
-        EXPECT_EQ(render({"--config", file, "--spp", "6"}).settings.spp, 6u);
-    }
-}
-
-TEST_F(OptionsTest, TheUsersConfigurationIsReadUnlessRefused) {
-    const std::string own = writeFile("ray-tracing/config.json", R"({"spp": 13})");
-    EXPECT_EQ(render({}).settings.spp, 13u);
-    EXPECT_EQ(render({"--no-config"}).settings.spp, 100u);
-    EXPECT_EQ(error({"--config=" + own, "--no-config"}), "--no-config: contradicts --config");
-    const manual::Page page = OptionParser("ray-tracing-cpu").page(); // which is for everybody
-    EXPECT_EQ(manual::findFlag(page, "--config")->byDefault, "");
-    writeFile("ray-tracing/config.toml", "spp = 17\n");
-    EXPECT_EQ(render({}).settings.spp, 17u);
-    writeFile("ray-tracing/config.toml", "spp = zero\n");
-    EXPECT_NE(error({}).find("config.toml:1: --spp zero: must be"), std::string::npos);
-}
-
-TEST_F(OptionsTest, BadConfigurationFilesAreNamed) {
-    const std::string missing = (home_ / "missing.json").string();
-    EXPECT_EQ(error({"--config", missing}), "--config " + missing + ": cannot be read");
-    for (const char* text :
-         {"{\"spp\": 5", "{\"spp\": {\"a\": 1}}", "{\"samples_per_pixel\": 5}", "{\"spp\": 0}",
-          "{\"list-scenes\": true}", "{\"spp\": []}", "{\"quiet\": 1}", "{\"spp\": 5, \"spp\": 6}"}) {
-        const std::string file = writeFile("bad", text);
-        EXPECT_EQ(error({"--config", file}).rfind(file + ":", 0), 0u) << text << " -> " << error({"--config", file});
-    }
-    const std::string file = writeFile("lines", "");
-    const auto second = [&](const std::string& line) { // the error of a line, which is the file's second
-        writeFile("lines", "# mine\n" + line + "\nwidth = 64\n");
-        const std::string message = error({"--config", file});
-        EXPECT_EQ(message.rfind(file + ":2: ", 0), 0u) << line << " -> " << message;
-        return message.substr(std::min(message.size(), (file + ":2: ").size()));
-    };
-    EXPECT_EQ(second("films = 3"), "\"films\" is no flag; --help-all lists them all");
-    EXPECT_EQ(second("x = 3"), "\"x\" is no flag; --help-all lists them all");
-    EXPECT_EQ(second("list-scenes = true"), "\"list-scenes\" can be given on the command line only");
-    EXPECT_EQ(second("quiet = maybe"), "--quiet maybe: must be true or false");
-    EXPECT_EQ(second("device = 0"), "--device: a flag of ray-tracing-gpu");
-    EXPECT_EQ(second("output = \"\""), "--output '': must be the name of a file");
-    EXPECT_EQ(second("spp = [5, 6]").rfind("--spp 5,6: must be a whole number", 0), 0u);
-    EXPECT_LT(second("spp = " + std::string(100'000, '7')).size(), 200u);
-    writeFile("lines", std::string(2'000'000, ' '));
-    EXPECT_EQ(error({"--config", file}), "--config " + file + ": must be of at most 1048576 bytes");
-    const std::string folder = home_.string();
-    EXPECT_EQ(error({"--config", folder}), "--config " + folder + ": cannot be read");
-    const std::string good = writeFile("good.json", "{}");
-    EXPECT_EQ(error({"--config", good}), "no error");
-    EXPECT_EQ(error({"--config", good, "--no-config"}), "--no-config: contradicts --config");
 }
 
 TEST_F(OptionsTest, HelpAndVersion) {
