@@ -8,13 +8,13 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/Image/ImageEquivalence.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"
 #include "RayTracingCPU/CpuEngine.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/Device.h"
 #include "tests/image/Harness.h"
+#include "tests/image/ImageEquivalence.h"
 
 namespace rt::test {
 namespace {

@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "Common/App/Session/SceneSource.h"
-#include "Common/Image/ImageEquivalence.h"
 #include "Common/Render/Names.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "tests/image/Harness.h"
+#include "tests/image/ImageEquivalence.h"
 
 namespace rt::test {
 namespace {

@@ -10,12 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "Common/App/Session/SceneSource.h"
-#include "Common/Image/ImageEquivalence.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Shared/Base/Features.h"
 #include "tests/ConnectedScene.h"
 #include "tests/image/AnalyticScenes.h"
 #include "tests/image/Harness.h"
+#include "tests/image/ImageEquivalence.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::test {

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "Common/App/Session/SceneSource.h"
-#include "Common/Image/ImageEquivalence.h"
 #include "Common/Render/RenderParams.h"
 #include "Common/Scene/CameraRecord.h"
 #include "Common/Scene/LightsInSpheres.h"
@@ -16,6 +15,7 @@
 #include "Common/Shared/Technique/EdgeRays.h"
 #include "tests/image/AnalyticScenes.h"
 #include "tests/image/Harness.h"
+#include "tests/image/ImageEquivalence.h"
 
 namespace rt::test {
 namespace {

@@ -5,13 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "Common/App/Session/SceneSource.h"
-#include "Common/Image/ImageEquivalence.h"
 #include "Common/Image/Statistics.h"
 #include "Common/Render/RenderParams.h"
 #include "Common/Scene/Builtin/SceneBuilder.h"
 #include "Common/Shared/Base/Features.h"
 #include "tests/image/AnalyticScenes.h"
 #include "tests/image/Harness.h"
+#include "tests/image/ImageEquivalence.h"
 
 namespace rt::test {
 namespace {

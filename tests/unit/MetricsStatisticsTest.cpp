@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "Common/Core/Error.h"
-#include "Common/Image/ImageEquivalence.h"
 #include "Common/Image/Statistics.h"
+#include "tests/image/ImageEquivalence.h"
 
 namespace rt::image {
 namespace {

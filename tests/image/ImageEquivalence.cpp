@@ -1,4 +1,4 @@
-#include "Common/Image/ImageEquivalence.h"
+#include "tests/image/ImageEquivalence.h"
 
 #include <algorithm>
 #include <cmath>
