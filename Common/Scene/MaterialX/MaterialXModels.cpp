@@ -1,5 +1,7 @@
 #include "Common/Scene/MaterialX/MaterialXModels.h"
 
+#include <array>
+
 namespace rt::scene {
 
 namespace {
@@ -26,98 +28,69 @@ constexpr MaterialXInput kStandardLeftOut[] = {{"diffuse_roughness", 0},
                                                {"tangent", 0}};
 constexpr MaterialXInput kGltfLeftOut[] = {{"tangent", 0}};
 
-constexpr MaterialXModel kModels[] = {{.node = "open_pbr_surface",
-                                       .base = {"base_weight", 1},
-                                       .baseColor = {"base_color", 0.8},
-                                       .metallic = {"base_metalness", 0},
-                                       .roughness = {"specular_roughness", 0.3},
-                                       .specular = {"specular_weight", 1},
-                                       .specularColor = {"specular_color", 1},
-                                       .ior = {"specular_ior", 1.5},
-                                       .transmission = {"transmission_weight", 0},
-                                       .transmissionColor = {"transmission_color", 1},
-                                       .transmissionDepth = {"transmission_depth", 0},
-                                       .subsurface = {"subsurface_weight", 0},
-                                       .subsurfaceColor = {"subsurface_color", 0.8},
-                                       .sheen = {"fuzz_weight", 0},
-                                       .sheenColor = {"fuzz_color", 1},
-                                       .sheenRoughness = {"fuzz_roughness", 0.5},
-                                       .coat = {"coat_weight", 0},
-                                       .coatColor = {"coat_color", 1},
-                                       .coatRoughness = {"coat_roughness", 0},
-                                       .emission = {"emission_luminance", 0},
-                                       .emissionColor = {"emission_color", 1},
-                                       .opacity = {"geometry_opacity", 1},
-                                       .thin = {"geometry_thin_walled", 0},
-                                       .normal = {"geometry_normal", 0},
-                                       .coatNormal = {"geometry_coat_normal", 0},
-                                       .film = {"thin_film_weight", 0},
-                                       .filmIor = {"thin_film_ior", 1.4},
-                                       .filmThickness = {"thin_film_thickness", 0.5},
-                                       .dispersion = {"transmission_dispersion_scale", 0},
-                                       .abbe = {"transmission_dispersion_abbe_number", 20},
-                                       .isSheenSquared = true,
-                                       .filmUnit = 1000,
-                                       .leftOut = kOpenPbrLeftOut},
-                                      {.node = "standard_surface",
-                                       .base = {"base", 1},
-                                       .baseColor = {"base_color", 0.8},
-                                       .metallic = {"metalness", 0},
-                                       .roughness = {"specular_roughness", 0.2},
-                                       .specular = {"specular", 1},
-                                       .specularColor = {"specular_color", 1},
-                                       .ior = {"specular_IOR", 1.5},
-                                       .transmission = {"transmission", 0},
-                                       .transmissionColor = {"transmission_color", 1},
-                                       .transmissionDepth = {"transmission_depth", 0},
-                                       .subsurface = {"subsurface", 0},
-                                       .subsurfaceColor = {"subsurface_color", 1},
-                                       .sheen = {"sheen", 0},
-                                       .sheenColor = {"sheen_color", 1},
-                                       .sheenRoughness = {"sheen_roughness", 0.3},
-                                       .coat = {"coat", 0},
-                                       .coatColor = {"coat_color", 1},
-                                       .coatRoughness = {"coat_roughness", 0.1},
-                                       .emission = {"emission", 0},
-                                       .emissionColor = {"emission_color", 1},
-                                       .opacity = {"opacity", 1},
-                                       .thin = {"thin_walled", 0},
-                                       .normal = {"normal", 0},
-                                       .coatNormal = {"coat_normal", 0},
-                                       .filmIor = {"thin_film_IOR", 1.5},
-                                       .filmThickness = {"thin_film_thickness", 0},
-                                       .abbe = {"transmission_dispersion", 0},
-                                       .isSheenSquared = true,
-                                       .leftOut = kStandardLeftOut},
-                                      {.node = "gltf_pbr",
-                                       .baseColor = {"base_color", 1},
-                                       .metallic = {"metallic", 1},
-                                       .roughness = {"roughness", 1},
-                                       .specular = {"specular", 1},
-                                       .specularColor = {"specular_color", 1},
-                                       .ior = {"ior", 1.5},
-                                       .transmission = {"transmission", 0},
-                                       .sheenColor = {"sheen_color", 0},
-                                       .sheenRoughness = {"sheen_roughness", 0},
-                                       .coat = {"clearcoat", 0},
-                                       .coatRoughness = {"clearcoat_roughness", 0},
-                                       .emission = {"emissive_strength", 1},
-                                       .emissionColor = {"emissive", 0},
-                                       .opacity = {"alpha", 1},
-                                       .normal = {"normal", 0},
-                                       .coatNormal = {"clearcoat_normal", 0},
-                                       .film = {"iridescence", 0},
-                                       .filmIor = {"iridescence_ior", 1.3},
-                                       .filmThickness = {"iridescence_thickness", 100},
-                                       .dispersion = {"dispersion", 0},
-                                       .anisotropy = {"anisotropy_strength", 0},
-                                       .anisotropyRotation = {"anisotropy_rotation", 0},
-                                       .alphaMode = {"alpha_mode", 0},
-                                       .alphaCutoff = {"alpha_cutoff", 0.5},
-                                       .thickness = {"thickness", 0},
-                                       .attenuationColor = {"attenuation_color", 1},
-                                       .attenuationDistance = {"attenuation_distance", 0},
-                                       .leftOut = kGltfLeftOut}};
+// An input of ours, and what open_pbr_surface, standard_surface and gltf_pbr call it.
+struct InputRow {
+    MaterialXInput MaterialXModel::*input;
+    MaterialXInput openPbr, standard, gltf;
+};
+constexpr InputRow kInputs[] = {
+    {&MaterialXModel::base, {"base_weight", 1}, {"base", 1}, {}},
+    {&MaterialXModel::baseColor, {"base_color", 0.8}, {"base_color", 0.8}, {"base_color", 1}},
+    {&MaterialXModel::metallic, {"base_metalness", 0}, {"metalness", 0}, {"metallic", 1}},
+    {&MaterialXModel::roughness, {"specular_roughness", 0.3}, {"specular_roughness", 0.2}, {"roughness", 1}},
+    {&MaterialXModel::specular, {"specular_weight", 1}, {"specular", 1}, {"specular", 1}},
+    {&MaterialXModel::specularColor, {"specular_color", 1}, {"specular_color", 1}, {"specular_color", 1}},
+    {&MaterialXModel::ior, {"specular_ior", 1.5}, {"specular_IOR", 1.5}, {"ior", 1.5}},
+    {&MaterialXModel::transmission, {"transmission_weight", 0}, {"transmission", 0}, {"transmission", 0}},
+    {&MaterialXModel::transmissionColor, {"transmission_color", 1}, {"transmission_color", 1}, {}},
+    {&MaterialXModel::transmissionDepth, {"transmission_depth", 0}, {"transmission_depth", 0}, {}},
+    {&MaterialXModel::subsurface, {"subsurface_weight", 0}, {"subsurface", 0}, {}},
+    {&MaterialXModel::subsurfaceColor, {"subsurface_color", 0.8}, {"subsurface_color", 1}, {}},
+    {&MaterialXModel::sheen, {"fuzz_weight", 0}, {"sheen", 0}, {}},
+    {&MaterialXModel::sheenColor, {"fuzz_color", 1}, {"sheen_color", 1}, {"sheen_color", 0}},
+    {&MaterialXModel::sheenRoughness, {"fuzz_roughness", 0.5}, {"sheen_roughness", 0.3}, {"sheen_roughness", 0}},
+    {&MaterialXModel::coat, {"coat_weight", 0}, {"coat", 0}, {"clearcoat", 0}},
+    {&MaterialXModel::coatColor, {"coat_color", 1}, {"coat_color", 1}, {}},
+    {&MaterialXModel::coatRoughness, {"coat_roughness", 0}, {"coat_roughness", 0.1}, {"clearcoat_roughness", 0}},
+    {&MaterialXModel::emission, {"emission_luminance", 0}, {"emission", 0}, {"emissive_strength", 1}},
+    {&MaterialXModel::emissionColor, {"emission_color", 1}, {"emission_color", 1}, {"emissive", 0}},
+    {&MaterialXModel::opacity, {"geometry_opacity", 1}, {"opacity", 1}, {"alpha", 1}},
+    {&MaterialXModel::thin, {"geometry_thin_walled", 0}, {"thin_walled", 0}, {}},
+    {&MaterialXModel::normal, {"geometry_normal", 0}, {"normal", 0}, {"normal", 0}},
+    {&MaterialXModel::coatNormal, {"geometry_coat_normal", 0}, {"coat_normal", 0}, {"clearcoat_normal", 0}},
+    {&MaterialXModel::film, {"thin_film_weight", 0}, {}, {"iridescence", 0}},
+    {&MaterialXModel::filmIor, {"thin_film_ior", 1.4}, {"thin_film_IOR", 1.5}, {"iridescence_ior", 1.3}},
+    {&MaterialXModel::filmThickness,
+     {"thin_film_thickness", 0.5},
+     {"thin_film_thickness", 0},
+     {"iridescence_thickness", 100}},
+    {&MaterialXModel::dispersion, {"transmission_dispersion_scale", 0}, {}, {"dispersion", 0}},
+    {&MaterialXModel::abbe, {"transmission_dispersion_abbe_number", 20}, {"transmission_dispersion", 0}, {}},
+    {&MaterialXModel::anisotropy, {}, {}, {"anisotropy_strength", 0}},
+    {&MaterialXModel::anisotropyRotation, {}, {}, {"anisotropy_rotation", 0}},
+    {&MaterialXModel::alphaMode, {}, {}, {"alpha_mode", 0}},
+    {&MaterialXModel::alphaCutoff, {}, {}, {"alpha_cutoff", 0.5}},
+    {&MaterialXModel::thickness, {}, {}, {"thickness", 0}},
+    {&MaterialXModel::attenuationColor, {}, {}, {"attenuation_color", 1}},
+    {&MaterialXModel::attenuationDistance, {}, {}, {"attenuation_distance", 0}},
+};
+
+constexpr std::array<MaterialXModel, 3> makeModels() {
+    MaterialXModel openPbr{"open_pbr_surface"}, standard{"standard_surface"}, gltf{"gltf_pbr"};
+    for (const InputRow& row : kInputs) {
+        openPbr.*row.input = row.openPbr;
+        standard.*row.input = row.standard;
+        gltf.*row.input = row.gltf;
+    }
+    openPbr.isSheenSquared = standard.isSheenSquared = true;
+    openPbr.filmUnit = 1000;
+    openPbr.leftOut = kOpenPbrLeftOut;
+    standard.leftOut = kStandardLeftOut;
+    gltf.leftOut = kGltfLeftOut;
+    return {openPbr, standard, gltf};
+}
+
+constexpr std::array<MaterialXModel, 3> kModels = makeModels();
 
 } // namespace
 
