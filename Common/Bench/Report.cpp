@@ -6,11 +6,7 @@
 #include <set>
 
 #include "Common/Bench/Cells.h"
-#include "Common/Bench/ReportCharts.h"
-#include "Common/Bench/ReportDenoise.h"
-#include "Common/Bench/ReportEfficiency.h"
-#include "Common/Bench/ReportPage.h"
-#include "Common/Bench/ReportSummary.h"
+#include "Common/Bench/ReportParts.h"
 #include "Common/Bench/ResultsJson.h"
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"

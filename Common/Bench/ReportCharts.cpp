@@ -1,5 +1,3 @@
-#include "Common/Bench/ReportCharts.h"
-
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "Common/Bench/Cells.h"
+#include "Common/Bench/ReportParts.h"
 
 namespace rt::bench {
 namespace {

@@ -1,5 +1,3 @@
-#include "Common/Bench/ReportDenoise.h"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -7,6 +5,7 @@
 #include <utility>
 
 #include "Common/Bench/Cells.h"
+#include "Common/Bench/ReportParts.h"
 #include "Common/Image/Convergence.h"
 #include "Common/Image/Summary.h"
 

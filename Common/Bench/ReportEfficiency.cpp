@@ -1,5 +1,3 @@
-#include "Common/Bench/ReportEfficiency.h"
-
 #include <algorithm>
 #include <iterator>
 #include <set>
@@ -7,6 +5,7 @@
 
 #include "Common/Bench/Cells.h"
 #include "Common/Bench/Efficiency.h"
+#include "Common/Bench/ReportParts.h"
 
 namespace rt::bench {
 namespace {

@@ -1,5 +1,3 @@
-#include "Common/Bench/ReportPage.h"
-
 #include <algorithm>
 #include <map>
 #include <variant>
@@ -7,6 +5,7 @@
 #include "Common/Bench/Markup.h"
 #include "Common/Bench/Overloaded.h"
 #include "Common/Bench/Pictures.h"
+#include "Common/Bench/ReportParts.h"
 
 namespace rt::bench {
 namespace {

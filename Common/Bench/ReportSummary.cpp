@@ -1,11 +1,10 @@
-#include "Common/Bench/ReportSummary.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "Common/Bench/Cells.h"
+#include "Common/Bench/ReportParts.h"
 
 namespace rt::bench {
 namespace {

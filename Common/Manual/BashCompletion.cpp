@@ -1,7 +1,7 @@
 #include <cstddef>
 #include <string>
 
-#include "Common/Manual/Completions.h"
+#include "Common/Manual/Formats.h"
 #include "Common/Manual/Text.h"
 #include "Common/Manual/Values.h"
 

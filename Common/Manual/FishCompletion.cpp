@@ -1,6 +1,6 @@
 #include <string>
 
-#include "Common/Manual/Completions.h"
+#include "Common/Manual/Formats.h"
 #include "Common/Manual/Text.h"
 #include "Common/Manual/Values.h"
 

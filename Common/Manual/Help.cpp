@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <sstream>
-#include <string>
 #include <vector>
 
 #include "Common/Manual/Text.h"

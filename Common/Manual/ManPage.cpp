@@ -1,9 +1,8 @@
-#include "Common/Manual/ManPage.h"
-
 #include <algorithm>
 #include <cctype>
-#include <string>
 #include <vector>
+
+#include "Common/Manual/Formats.h"
 
 namespace rt::manual {
 namespace {

@@ -1,7 +1,6 @@
-#include "Common/Manual/Reference.h"
-
-#include <string>
 #include <vector>
+
+#include "Common/Manual/Formats.h"
 
 namespace rt::manual {
 namespace {

@@ -1,7 +1,7 @@
 #include <string>
 #include <vector>
 
-#include "Common/Manual/Completions.h"
+#include "Common/Manual/Formats.h"
 #include "Common/Manual/Text.h"
 #include "Common/Manual/Values.h"
 

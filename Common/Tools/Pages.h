@@ -5,8 +5,8 @@
 
 #include "Common/App/Options/Options.h"
 #include "Common/Bench/BenchOptions.h"
+#include "Common/Manual/Formats.h"
 #include "Common/Manual/Page.h"
-#include "Common/Manual/Reference.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Tools/Image/ImageArguments.h"
 

@@ -8,8 +8,7 @@
 
 #include "Common/Core/BuildInfo.h"
 #include "Common/Core/RunMain.h"
-#include "Common/Manual/Completions.h"
-#include "Common/Manual/ManPage.h"
+#include "Common/Manual/Formats.h"
 #include "Common/Tools/Pages.h"
 
 namespace {

@@ -14,7 +14,7 @@
 #include "Common/Bench/BenchOptions.h"
 #include "Common/Bench/Import.h"
 #include "Common/Bench/Report.h"
-#include "Common/Bench/ReportPage.h"
+#include "Common/Bench/ReportParts.h"
 #include "Common/Bench/ResultsJson.h"
 #include "Common/Bench/Runner.h"
 #include "Common/Core/Error.h"

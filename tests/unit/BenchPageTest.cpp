@@ -5,8 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "Common/Bench/Report.h"
-#include "Common/Bench/ReportPage.h"
-#include "Common/Bench/ReportSummary.h"
+#include "Common/Bench/ReportParts.h"
 
 namespace rt::bench {
 namespace {

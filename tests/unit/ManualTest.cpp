@@ -10,9 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "Common/Core/BuildInfo.h"
-#include "Common/Manual/Completions.h"
+#include "Common/Manual/Formats.h"
 #include "Common/Manual/Help.h"
-#include "Common/Manual/ManPage.h"
 #include "Common/Manual/Values.h"
 #include "Common/Tools/Pages.h"
 
