@@ -94,6 +94,13 @@ struct NewArray {
 };
 using NewFloats = NewArray<float>;
 
+// Calls fill(i) for each row, while other threads may run Python.
+template <class Fill>
+void forEachRow(std::size_t count, const Fill& fill) {
+    const pybind11::gil_scoped_release released;
+    for (std::size_t i = 0; i < count; ++i) fill(i);
+}
+
 // float32 array of shape (height, width, channels), or (height, width) of one channel; it owns the image, of which
 // nothing is copied.
 pybind11::array toArray(image::Image image);

@@ -1,9 +1,6 @@
 // Scattering at surfaces of a scene's materials.
-#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <pybind11/pybind11.h>
-#include <string>
 
 #include "Common/Probe/Densities.h"
 #include "Common/Shared/Path/Vertex.h"
@@ -58,17 +55,14 @@ py::tuple sampleBsdfs(const Scene& scene, const py::object& index, const py::obj
     const std::size_t count = commonCount({&arguments.normal, &arguments.wo, &arguments.uv, &u});
     NewFloats wi(count, 3), weight(count, 3), pdf(count);
     NewArray<bool> delta(count), transmitted(count);
-    {
-        const py::gil_scoped_release released;
-        for (std::size_t i = 0; i < count; ++i) {
-            const BsdfSample s = sampleScattering(kFeatureAll, arguments.vertex(scene, i), u.vec2(i));
-            wi.set(i, s.wi);
-            weight.set(i, s.weight);
-            pdf.set(i, s.pdf);
-            delta.set(i, s.delta != 0u);
-            transmitted.set(i, s.transmitted != 0u);
-        }
-    }
+    forEachRow(count, [&](std::size_t i) {
+        const BsdfSample s = sampleScattering(kFeatureAll, arguments.vertex(scene, i), u.vec2(i));
+        wi.set(i, s.wi);
+        weight.set(i, s.weight);
+        pdf.set(i, s.pdf);
+        delta.set(i, s.delta != 0u);
+        transmitted.set(i, s.transmitted != 0u);
+    });
     return py::make_tuple(wi.array, weight.array, pdf.array, delta.array, transmitted.array);
 }
 
@@ -78,14 +72,11 @@ py::tuple evalBsdfs(const Scene& scene, const py::object& index, const py::objec
     const Rows wi(incoming, "wi", 3, Demand::Unit);
     const std::size_t count = commonCount({&arguments.normal, &arguments.wo, &arguments.uv, &wi});
     NewFloats value(count, 3), pdf(count);
-    {
-        const py::gil_scoped_release released;
-        for (std::size_t i = 0; i < count; ++i) {
-            const shared::vec4 f = evalScattering(kFeatureAll, arguments.vertex(scene, i), wi.vec3(i));
-            value.set(i, shared::vec3(f));
-            pdf.set(i, f.w);
-        }
-    }
+    forEachRow(count, [&](std::size_t i) {
+        const shared::vec4 f = evalScattering(kFeatureAll, arguments.vertex(scene, i), wi.vec3(i));
+        value.set(i, shared::vec3(f));
+        pdf.set(i, f.w);
+    });
     return py::make_tuple(value.array, pdf.array);
 }
 

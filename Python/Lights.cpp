@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <limits>
 #include <pybind11/pybind11.h>
-#include <string>
 
 #include "Common/Probe/Densities.h"
 #include "Common/Shared/Path/DirectLight.h"
@@ -47,21 +46,18 @@ py::tuple sampleLights(const Scene& scene, const py::object& index, const py::ob
     const Rows time(when, "time", 0, Demand::Fraction);
     const std::size_t count = commonCount({&position, &normal, &u, &time});
     NewFloats direction(count, 3), distance(count), pdf(count), radiance(count, 3), point(count, 3), towards(count, 3);
-    {
-        const py::gil_scoped_release released;
-        for (std::size_t i = 0; i < count; ++i) {
-            const Vertex v = vertexAt(scene.toScene(position.vec3(i)), normal.vec3(i));
-            LightSample s =
-                sampleChosenLight(kFeatureAll, scene.view(), scene.params(), light, v, time.number(i), u.vec2(i));
-            if (!(s.pdf > 0.0f)) s = noLightSample();
-            direction.set(i, s.wi);
-            distance.set(i, s.distance < kInfinity ? s.distance : std::numeric_limits<float>::infinity());
-            pdf.set(i, s.pdf);
-            radiance.set(i, s.radiance);
-            point.set(i, s.pdf > 0.0f && s.distance < kInfinity ? scene.toWorld(s.point) : shared::vec3(0.0f));
-            towards.set(i, s.normal);
-        }
-    }
+    forEachRow(count, [&](std::size_t i) {
+        const Vertex v = vertexAt(scene.toScene(position.vec3(i)), normal.vec3(i));
+        LightSample s =
+            sampleChosenLight(kFeatureAll, scene.view(), scene.params(), light, v, time.number(i), u.vec2(i));
+        if (!(s.pdf > 0.0f)) s = noLightSample();
+        direction.set(i, s.wi);
+        distance.set(i, s.distance < kInfinity ? s.distance : std::numeric_limits<float>::infinity());
+        pdf.set(i, s.pdf);
+        radiance.set(i, s.radiance);
+        point.set(i, s.pdf > 0.0f && s.distance < kInfinity ? scene.toWorld(s.point) : shared::vec3(0.0f));
+        towards.set(i, s.normal);
+    });
     return py::make_tuple(direction.array, distance.array, pdf.array, radiance.array, point.array, towards.array);
 }
 
@@ -74,12 +70,10 @@ py::array lightPdfs(const Scene& scene, const py::object& index, const py::objec
     const Rows time(when, "time", 0, Demand::Fraction);
     const std::size_t count = commonCount({&position, &normal, &direction, &time});
     NewFloats pdf(count);
-    {
-        const py::gil_scoped_release released;
-        for (std::size_t i = 0; i < count; ++i)
-            pdf.set(i, probe::lightDensity(scene, light, scene.toScene(position.vec3(i)), normal.vec3(i),
-                                           time.number(i), direction.vec3(i)));
-    }
+    forEachRow(count, [&](std::size_t i) {
+        pdf.set(i, probe::lightDensity(scene, light, scene.toScene(position.vec3(i)), normal.vec3(i), time.number(i),
+                                       direction.vec3(i)));
+    });
     return pdf.array;
 }
 
@@ -92,15 +86,12 @@ py::tuple chooseLights(const Scene& scene, const py::object& points, const py::o
     const std::size_t count = commonCount({&position, &normal, &u});
     NewArray<std::int32_t> light(count);
     NewFloats probability(count);
-    {
-        const py::gil_scoped_release released;
-        for (std::size_t i = 0; i < count; ++i) {
-            LightContext context = probe::contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
-            const LightChoice choice = probe::chooseLightAt(scene, u.vec2(i), context);
-            light.set(i, static_cast<std::int32_t>(choice.light));
-            probability.set(i, choice.light == kNone ? 0.0f : choice.probability);
-        }
-    }
+    forEachRow(count, [&](std::size_t i) {
+        LightContext context = probe::contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
+        const LightChoice choice = probe::chooseLightAt(scene, u.vec2(i), context);
+        light.set(i, static_cast<std::int32_t>(choice.light));
+        probability.set(i, choice.light == kNone ? 0.0f : choice.probability);
+    });
     return py::make_tuple(light.array, probability.array);
 }
 
@@ -111,14 +102,11 @@ py::array lightProbabilities(const Scene& scene, const py::object& index, const 
     const Rows normal(normals, "normals", 3, Demand::UnitOr0);
     const std::size_t count = commonCount({&position, &normal});
     NewFloats probability(count);
-    {
-        const py::gil_scoped_release released;
-        for (std::size_t i = 0; i < count; ++i) {
-            LightContext context = probe::contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
-            probe::chooseLightAt(scene, shared::vec2(0.5f, 0.5f), context); // which leaves the sum of contributions
-            probability.set(i, probe::probabilityOf(scene, static_cast<uint>(light), context));
-        }
-    }
+    forEachRow(count, [&](std::size_t i) {
+        LightContext context = probe::contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
+        probe::chooseLightAt(scene, shared::vec2(0.5f, 0.5f), context); // which leaves the sum of contributions
+        probability.set(i, probe::probabilityOf(scene, static_cast<uint>(light), context));
+    });
     return probability.array;
 }
 
@@ -132,14 +120,11 @@ py::array lightSamplingPdfs(const Scene& scene, const py::object& points, const 
     const Rows time(when, "time", 0, Demand::Fraction);
     const std::size_t count = commonCount({&position, &normal, &direction, &time});
     NewFloats pdf(count);
-    {
-        const py::gil_scoped_release released;
-        for (std::size_t i = 0; i < count; ++i) {
-            LightContext context = probe::contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
-            probe::chooseLightAt(scene, shared::vec2(0.5f, 0.5f), context);
-            pdf.set(i, probe::lightsDensity(scene, context, time.number(i), direction.vec3(i)));
-        }
-    }
+    forEachRow(count, [&](std::size_t i) {
+        LightContext context = probe::contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
+        probe::chooseLightAt(scene, shared::vec2(0.5f, 0.5f), context);
+        pdf.set(i, probe::lightsDensity(scene, context, time.number(i), direction.vec3(i)));
+    });
     return pdf.array;
 }
 

@@ -1,8 +1,6 @@
 // The random numbers that renders use.
 #include <cstddef>
-#include <cstdint>
 #include <pybind11/pybind11.h>
-#include <string>
 
 #include "Common/Shared/Base/Random.h"
 #include "Python/Arrays.h"
@@ -23,13 +21,10 @@ py::array samples(const Scene& scene, const py::object& pixels, const py::object
     const Words replicate(replicates, "replicate");
     const std::size_t count = commonCount({&pixel, &index, &dimension, &replicate});
     NewFloats u(count, 2);
-    {
-        const py::gil_scoped_release released;
-        for (std::size_t i = 0; i < count; ++i) {
-            const shared::Sampler s = shared::makeSampler(scene.params(), pixel.at(i), replicate.at(i), index.at(i));
-            u.set(i, shared::sample2D(s, dimension.at(i)));
-        }
-    }
+    forEachRow(count, [&](std::size_t i) {
+        const shared::Sampler s = shared::makeSampler(scene.params(), pixel.at(i), replicate.at(i), index.at(i));
+        u.set(i, shared::sample2D(s, dimension.at(i)));
+    });
     return u.array;
 }
 
