@@ -22,7 +22,7 @@ fs::path programFile(const std::string& name, const fs::path& folder) {
     return file;
 }
 
-std::vector<std::string> flagsFor(const RenderSettings& settings, const fs::path& picture, const fs::path& statistics) {
+std::vector<std::string> settingFlags(const RenderSettings& settings) {
     std::vector<std::string> list;
     const auto add = [&list](const std::string& flag, const std::string& value) {
         list.push_back(flag);
@@ -37,9 +37,13 @@ std::vector<std::string> flagsFor(const RenderSettings& settings, const fs::path
     forEachMethod([&add](const char* key, const char*, const char*, const auto& table,
                          const auto& value) { add(flagOf(key), nameOf(table, value)); },
                   settings);
-    add("--russian-roulette", nameOf(kOnOff, settings.russianRoulette));
-    add("--output", picture.string());
-    add("--stats", statistics.string());
+    return list;
+}
+
+std::vector<std::string> flagsFor(const RenderSettings& settings, const fs::path& picture, const fs::path& statistics) {
+    std::vector<std::string> list = settingFlags(settings);
+    list.insert(list.end(), {"--russian-roulette", nameOf(kOnOff, settings.russianRoulette), "--output",
+                             picture.string(), "--stats", statistics.string()});
     return list;
 }
 

@@ -11,6 +11,9 @@ namespace rt::app {
 // "ray-tracing-cpu" in `folder`, or beside the running program. Throws RenderError where it is not.
 std::filesystem::path programFile(const std::string& name, const std::filesystem::path& folder = {});
 
+// Size, samples, depth, seed, replicates and methods, as flags each followed by its value.
+std::vector<std::string> settingFlags(const RenderSettings& settings);
+
 // The flags that ask for these settings, but for a forced feature mask; its files besides.
 std::vector<std::string> flagsFor(const RenderSettings& settings, const std::filesystem::path& picture,
                                   const std::filesystem::path& statistics);

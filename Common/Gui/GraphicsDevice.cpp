@@ -1,6 +1,5 @@
 #include "Common/Gui/GraphicsDevice.h"
 
-#include <optional>
 #include <vector>
 
 #include "Common/Core/TextSearch.h"
@@ -19,11 +18,8 @@ bool presents(VkPhysicalDevice device, std::uint32_t family, VkSurfaceKHR surfac
 }
 
 std::optional<std::uint32_t> presentingFamily(VkPhysicalDevice device, VkSurfaceKHR surface) {
-    std::uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-    for (std::uint32_t i = 0; i < count; ++i) {
+    const std::vector<VkQueueFamilyProperties> families = vulkan::queueFamiliesOf(device);
+    for (std::uint32_t i = 0; i < families.size(); ++i) {
         if ((families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0 && presents(device, i, surface)) return i;
     }
     return std::nullopt;

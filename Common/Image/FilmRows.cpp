@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <vector>
 
 namespace rt::image {
 
@@ -21,6 +20,13 @@ void forEachTile(const Film& film, std::uint32_t y, Pixels row, Visit visit) {
         const std::size_t count = std::min(Film::kTile, width - x);
         visit(firstTile + x / Film::kTile, firstPixel, row.subspan(x * channels, count * channels));
     }
+}
+
+// Rows of which each tile's pixels are found by visit() of forEachTile().
+template <class Visit>
+ImageRows rowsOf(const Film& film, std::uint32_t channels, const Visit& visit) {
+    return {film.desc().width, film.desc().height, channels,
+            [&film, visit](std::uint32_t y, Pixels row) { forEachTile(film, y, row, visit); }};
 }
 
 // A value's sum over the samples of the open block; 0 when there is none.
@@ -75,88 +81,76 @@ Groups blocksOf(const Film::TileState& state, std::size_t value) {
 } // namespace
 
 ImageRows meanRows(const Film& film) {
-    const auto readRow = [&film](std::uint32_t y, Pixels row) {
-        forEachTile(film, y, row, [&film](std::uint32_t tile, std::size_t firstPixel, Pixels pixels) {
-            const std::uint32_t parts = film.hasPlan() ? 2 : 1;
-            double sums[2][Film::kTile * 3] = {}, counts[2][Film::kTile * 3] = {};
-            for (std::uint32_t r = 0; r < film.desc().replicates; ++r) {
-                const Film::TileState state = film.state(tile, r);
-                const std::uint32_t part = Film::halfOf(r) % parts;
-                for (std::size_t i = 0; i < pixels.size(); ++i) {
-                    const std::size_t value = firstPixel * 3 + i;
-                    sums[part][i] += state.sums[value] + openSum(state, value);
-                    counts[part][i] += state.samplesOf(value / 3);
-                }
-            }
+    return rowsOf(film, 3, [&film](std::uint32_t tile, std::size_t firstPixel, Pixels pixels) {
+        const std::uint32_t parts = film.hasPlan() ? 2 : 1;
+        double sums[2][Film::kTile * 3] = {}, counts[2][Film::kTile * 3] = {};
+        for (std::uint32_t r = 0; r < film.desc().replicates; ++r) {
+            const Film::TileState state = film.state(tile, r);
+            const std::uint32_t part = Film::halfOf(r) % parts;
             for (std::size_t i = 0; i < pixels.size(); ++i) {
-                double mean = 0;
-                for (std::uint32_t part = 0; part < parts; ++part)
-                    if (counts[part][i] > 0) mean += sums[part][i] / counts[part][i];
-                pixels[i] = static_cast<float>(mean / parts);
+                const std::size_t value = firstPixel * 3 + i;
+                sums[part][i] += state.sums[value] + openSum(state, value);
+                counts[part][i] += state.samplesOf(value / 3);
             }
-        });
-    };
-    return {film.desc().width, film.desc().height, 3, readRow};
+        }
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            double mean = 0;
+            for (std::uint32_t part = 0; part < parts; ++part)
+                if (counts[part][i] > 0) mean += sums[part][i] / counts[part][i];
+            pixels[i] = static_cast<float>(mean / parts);
+        }
+    });
 }
 
 ImageRows halfRows(const Film& film, std::uint32_t half) {
-    const auto readRow = [&film, half](std::uint32_t y, Pixels row) {
-        forEachTile(film, y, row, [&film, half](std::uint32_t tile, std::size_t firstPixel, Pixels pixels) {
-            double sums[Film::kTile * 3] = {}, counts[Film::kTile * 3] = {};
-            for (std::uint32_t r = half; r < film.desc().replicates; r += 2) {
-                const Film::TileState state = film.state(tile, r);
-                for (std::size_t i = 0; i < pixels.size(); ++i) {
-                    const std::size_t value = firstPixel * 3 + i;
-                    sums[i] += state.sums[value] + openSum(state, value);
-                    counts[i] += state.samplesOf(value / 3);
-                }
+    return rowsOf(film, 3, [&film, half](std::uint32_t tile, std::size_t firstPixel, Pixels pixels) {
+        double sums[Film::kTile * 3] = {}, counts[Film::kTile * 3] = {};
+        for (std::uint32_t r = half; r < film.desc().replicates; r += 2) {
+            const Film::TileState state = film.state(tile, r);
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                const std::size_t value = firstPixel * 3 + i;
+                sums[i] += state.sums[value] + openSum(state, value);
+                counts[i] += state.samplesOf(value / 3);
             }
-            for (std::size_t i = 0; i < pixels.size(); ++i)
-                pixels[i] = counts[i] > 0 ? static_cast<float>(sums[i] / counts[i]) : 0.0f;
-        });
-    };
-    return {film.desc().width, film.desc().height, 3, readRow};
+        }
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            pixels[i] = counts[i] > 0 ? static_cast<float>(sums[i] / counts[i]) : 0.0f;
+    });
 }
 
 ImageRows varianceRows(const Film& film) {
     const std::uint32_t replicates = film.desc().replicates;
     if (replicates < 2 && !film.desc().secondMoments)
         throw std::logic_error("the variance needs second moments or two replicates");
-    const auto readRow = [&film, replicates](std::uint32_t y, Pixels row) {
-        forEachTile(film, y, row, [&film, replicates](std::uint32_t tile, std::size_t firstPixel, Pixels pixels) {
-            Groups groups[2][Film::kTile * 3]; // of each half; of all in the first without a plan
-            for (std::uint32_t r = 0; r < replicates; ++r) {
-                const Film::TileState state = film.state(tile, r);
-                const std::uint32_t part = film.hasPlan() ? Film::halfOf(r) : 0;
-                for (std::size_t i = 0; i < pixels.size(); ++i) {
-                    const std::size_t value = firstPixel * 3 + i;
-                    if (replicates > 1)
-                        addReplicate(groups[part][i], state, value);
-                    else
-                        groups[0][i] = blocksOf(state, value);
-                }
+    return rowsOf(film, 3, [&film, replicates](std::uint32_t tile, std::size_t firstPixel, Pixels pixels) {
+        Groups groups[2][Film::kTile * 3]; // of each half; of all in the first without a plan
+        for (std::uint32_t r = 0; r < replicates; ++r) {
+            const Film::TileState state = film.state(tile, r);
+            const std::uint32_t part = film.hasPlan() ? Film::halfOf(r) : 0;
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                const std::size_t value = firstPixel * 3 + i;
+                if (replicates > 1)
+                    addReplicate(groups[part][i], state, value);
+                else
+                    groups[0][i] = blocksOf(state, value);
             }
-            for (std::size_t i = 0; i < pixels.size(); ++i)
-                pixels[i] = static_cast<float>(film.hasPlan() ? varianceOfHalves(groups[0][i], groups[1][i])
-                                                              : groups[0][i].varianceOfMean());
-        });
-    };
-    return {film.desc().width, film.desc().height, 3, readRow};
+        }
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            pixels[i] = static_cast<float>(film.hasPlan() ? varianceOfHalves(groups[0][i], groups[1][i])
+                                                          : groups[0][i].varianceOfMean());
+    });
 }
 
 ImageRows sampleCountRows(const Film& film) {
-    const auto readRow = [&film](std::uint32_t y, Pixels row) {
-        forEachTile(film, y, row, [&film](std::uint32_t tile, std::size_t firstPixel, Pixels pixels) {
-            std::uint64_t counts[Film::kTile] = {};
-            for (std::uint32_t r = 0; r < film.desc().replicates; ++r) {
-                const Film::TileState state = film.state(tile, r);
-                for (std::size_t i = 0; i < pixels.size(); ++i) counts[i] += state.samplesOf(firstPixel + i);
-            }
-            std::transform(counts, counts + pixels.size(), pixels.begin(),
-                           [](std::uint64_t count) { return static_cast<float>(count); });
-        });
-    };
-    return {film.desc().width, film.desc().height, 1, readRow};
+    return rowsOf(film, 1, [&film](std::uint32_t tile, std::size_t firstPixel, Pixels pixels) {
+        std::uint64_t counts[Film::kTile] = {};
+        for (std::uint32_t r = 0; r < film.desc().replicates; ++r) {
+            const Film::TileState state = film.state(tile, r);
+            for (std::size_t i = 0; i < pixels.size(); ++i) counts[i] += state.samplesOf(firstPixel + i);
+        }
+        std::transform(counts, counts + pixels.size(), pixels.begin(),
+                       [](std::uint64_t count) { return static_cast<float>(count); });
+    });
 }
 
 } // namespace rt::image

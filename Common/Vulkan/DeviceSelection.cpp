@@ -88,12 +88,9 @@ std::string missingFeatures(VkPhysicalDevice device) {
 }
 
 std::optional<std::uint32_t> findQueueFamily(VkPhysicalDevice device) {
-    std::uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    const std::vector<VkQueueFamilyProperties> families = queueFamiliesOf(device);
     std::optional<std::uint32_t> best;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t i = 0; i < families.size(); ++i) {
         // A queue that can draw as well serves a window too.
         if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) continue;
         if (!best || (families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0) best = i;
@@ -103,11 +100,8 @@ std::optional<std::uint32_t> findQueueFamily(VkPhysicalDevice device) {
 }
 
 bool canDraw(VkPhysicalDevice device, std::uint32_t queueFamily) {
-    std::uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-    if (queueFamily >= count || (families[queueFamily].queueFlags & VK_QUEUE_GRAPHICS_BIT) == 0) return false;
+    const std::vector<VkQueueFamilyProperties> families = queueFamiliesOf(device);
+    if (queueFamily >= families.size() || (families[queueFamily].queueFlags & VK_QUEUE_GRAPHICS_BIT) == 0) return false;
     VkPhysicalDeviceFeatures features;
     vkGetPhysicalDeviceFeatures(device, &features);
     if (!features.sampleRateShading) return false;
@@ -203,6 +197,14 @@ const DeviceInfo* findRequested(const std::vector<DeviceInfo>& devices, const st
 }
 
 } // namespace
+
+std::vector<VkQueueFamilyProperties> queueFamiliesOf(VkPhysicalDevice device) {
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    return families;
+}
 
 bool offersExtension(VkPhysicalDevice device, const char* name) {
     return contains(extensionsOf(device), name);

@@ -39,6 +39,7 @@ struct DeviceInfo {
     bool hasAccelStructures() const { return tracesRays() || queriesRays(); }
 };
 
+std::vector<VkQueueFamilyProperties> queueFamiliesOf(VkPhysicalDevice device);
 // Throws RenderError where the driver cannot tell.
 bool offersExtension(VkPhysicalDevice device, const char* name);
 

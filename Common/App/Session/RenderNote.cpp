@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "Common/App/Interactive/CameraController.h"
+#include "Common/App/OtherProgram.h"
 #include "Common/App/Session/FeatureNames.h"
 #include "Common/App/Session/ImagePart.h"
 #include "Common/Core/BuildInfo.h"
@@ -37,15 +38,7 @@ Json argumentList(const Options& options, const scene::CameraDesc& camera, const
     if (options.shutter.isOpen())
         add("--shutter", exactly(options.shutter.open) + "," + exactly(options.shutter.close));
     add("--camera", CameraController::toText(camera));
-    add("--width", std::to_string(s.width));
-    add("--height", std::to_string(s.height));
-    add("--spp", std::to_string(s.spp));
-    add("--max-depth", std::to_string(s.maxDepth));
-    add("--seed", std::to_string(s.seed));
-    add("--replicates", std::to_string(s.replicates));
-    forEachMethod([&add](const char* key, const char*, const char*, const auto& table,
-                         const auto& value) { add(flagOf(key), nameOf(table, value)); },
-                  s);
+    for (const std::string& word : settingFlags(s)) list.push_back(word);
     add("--one-sided-lights", nameOf(kOnOff, options.oneSidedLights));
     add("--russian-roulette", nameOf(kOnOff, s.russianRoulette));
     add("--exposure", exactly(options.exposure));
