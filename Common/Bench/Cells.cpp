@@ -1,31 +1,26 @@
 #include "Common/Bench/Cells.h"
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
+
+#include "Common/Core/Format.h"
 
 namespace rt::bench {
 
 std::string percent(double value, int digits) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.*f %%", digits, 100 * value);
-    return text;
+    return formatted("%.*f %%", digits, 100 * value);
 }
 
 std::string whole(const Figure& figure) {
     if (!figure) return kUnknown;
-    char text[32];
-    std::snprintf(text, sizeof text, "%.0f", *figure);
-    return text;
+    return formatted("%.0f", *figure);
 }
 
 std::string threeDigits(const Figure& figure) {
     if (!figure) return kUnknown;
     if (!std::isfinite(*figure)) return "∞";
-    char text[32];
     const double size = std::abs(*figure);
-    std::snprintf(text, sizeof text, size >= 1000 && size < 1e6 ? "%.0f" : "%.3g", *figure);
-    return text;
+    return formatted(size >= 1000 && size < 1e6 ? "%.0f" : "%.3g", *figure);
 }
 
 std::string withInterval(const Figure& value, const Figure& half) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "Common/Bench/Markup.h"
+#include "Common/Core/Format.h"
 
 namespace rt::bench {
 namespace {
@@ -26,9 +26,7 @@ struct Scale { // of one axis, in powers of ten
 };
 
 std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f", value);
-    return text;
+    return formatted("%.1f", value);
 }
 
 class SvgWriter {
@@ -75,9 +73,7 @@ class SvgWriter {
 
 std::string labelOf(int digit, int exponent) {
     if (exponent < -2 || exponent > 4) return std::to_string(digit) + "e" + std::to_string(exponent);
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", digit * std::pow(10.0, exponent));
-    return text;
+    return formatted("%g", digit * std::pow(10.0, exponent));
 }
 
 // Whole powers of ten, or halves of them where there is little to see.

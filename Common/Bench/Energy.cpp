@@ -1,8 +1,9 @@
 #include "Common/Bench/Energy.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
+
+#include "Common/Core/Format.h"
 
 namespace rt::bench {
 namespace {
@@ -68,11 +69,8 @@ std::optional<double> NvidiaEnergy::joules() const {
 
 std::string nvidiaUuid(const std::array<std::uint8_t, 16>& uuid) {
     std::string text = "GPU";
-    for (std::size_t i = 0; i < uuid.size(); ++i) {
-        char digits[4];
-        std::snprintf(digits, sizeof digits, "%02x", uuid[i]);
-        text += (i == 0 || (i >= 4 && i <= 10 && i % 2 == 0) ? "-" : "") + std::string(digits);
-    }
+    for (std::size_t i = 0; i < uuid.size(); ++i)
+        text += (i == 0 || (i >= 4 && i <= 10 && i % 2 == 0) ? "-" : "") + formatted("%02x", uuid[i]);
     return text;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <limits>
 #include <map>
@@ -17,6 +16,7 @@
 #include "Common/Bench/Pictures.h"
 #include "Common/Bench/ReferenceRows.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/Format.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Render/Stopwatch.h"
 
@@ -28,12 +28,6 @@ using image::Image;
 constexpr double kRateSeconds = 0.3; // of sampling
 constexpr double kMinFall = -0.5;    // slope of mse over samples that is still one
 constexpr double kLargestZ = 4;
-
-std::string format(const char* pattern, double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, pattern, value);
-    return text;
-}
 
 std::string describe(const Experiment& experiment, const Config& config) {
     if (config.imported) return config.scene + ", " + config.engine;
@@ -260,13 +254,14 @@ void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
         results_.series.push_back(series);
         if (series.config.denoise == Denoise::Off && series.tailSlope.value_or(-1) > kMinFall && referenceSuffices_)
             notice(experiment.name + ": " + describe(experiment, series.config) +
-                   ": the error hardly falls at the end, with slope " + format("%.2f", *series.tailSlope) + ".");
+                   ": the error hardly falls at the end, with slope " + formatted("%.2f", *series.tailSlope) + ".");
     }
     for (const Row& row : all)
         if (std::abs(row.biasZ.value_or(0)) > kLargestZ)
             notice(experiment.name + ": " + describe(experiment, row.config) + ": at " +
-                   (row.spp ? format("%.0f spp", *row.spp) : format("%.3g s", *row.seconds)) + " the mean is off by " +
-                   format("%.1f", *row.biasZ) + " standard deviations: biased, or ruled by a few bright samples.");
+                   (row.spp ? formatted("%.0f spp", *row.spp) : formatted("%.3g s", *row.seconds)) +
+                   " the mean is off by " + formatted("%.1f", *row.biasZ) +
+                   " standard deviations: biased, or ruled by a few bright samples.");
     for (const SkipRow& skip : compareFeatures(experiment, group.measured)) results_.skips.push_back(skip);
     if (reference != nullptr && experiment.images)
         results_.grids.push_back(makeGrid(experiment, group.measured, *reference));
@@ -318,18 +313,18 @@ void SuiteRunner::measureOnce(const Experiment& experiment, Measured& measured, 
     if (snapshots.empty()) {
         if (!stop_)
             notice(what + ": nothing within " +
-                   (wanted == 0 ? "its max_spp" : format("%g s", std::min(experiment.maxSeconds, longest))) + ".");
+                   (wanted == 0 ? "its max_spp" : formatted("%g s", std::min(experiment.maxSeconds, longest))) + ".");
         return;
     }
     const Snapshot& last = snapshots.back();
     if (last.spp == 0)
-        notice(what + ": no whole picture within " + format("%g s", last.timeBudget.value_or(last.seconds)) +
+        notice(what + ": no whole picture within " + formatted("%g s", last.timeBudget.value_or(last.seconds)) +
                ", so that its error is not known.");
-    hooks_.say(what + ": " + std::to_string(last.spp) + " spp in " + format("%.3g s", last.seconds) + ", " +
-               format("%.3g M samples/s", static_cast<double>(last.samples) / last.seconds * 1e-6));
+    hooks_.say(what + ": " + std::to_string(last.spp) + " spp in " + formatted("%.3g s", last.seconds) + ", " +
+               formatted("%.3g M samples/s", static_cast<double>(last.samples) / last.seconds * 1e-6));
     if (snapshots.size() < wanted && !stop_)
         notice(what + ": ends at " + std::to_string(last.spp) + " spp, as more would take above " +
-               format("%g s", experiment.maxSeconds) + ".");
+               formatted("%g s", experiment.maxSeconds) + ".");
 }
 
 // By the engine that was fastest; null when stopped before there is one. Adds the errors to the rows.
@@ -364,7 +359,7 @@ const image::Reference* SuiteRunner::provideReference(const Group& group, std::v
     auto made = references_.provide(request, images, *engine, stop_);
     if (!made) {
         if (!stop_)
-            notice(group.scene + ": no reference within " + format("%g s", request.maxSeconds) +
+            notice(group.scene + ": no reference within " + formatted("%g s", request.maxSeconds) +
                    "; errors are not known.");
         return nullptr;
     }
@@ -375,7 +370,7 @@ const image::Reference* SuiteRunner::provideReference(const Group& group, std::v
     ReferenceRow row = makeReferenceRow(group.scene, request, config.engine, *made, reference_);
     verifyReference(rows, row);
     hooks_.say("reference of " + group.scene + ": " + std::to_string(made->spp) + " spp, " +
-               format("%.3g s", made->seconds) + (made->cached ? ", partly cached" : ""));
+               formatted("%.3g s", made->seconds) + (made->cached ? ", partly cached" : ""));
     if (!made->sufficient && !stop_)
         notice(group.scene +
                ": the reference's standard error is more than a third of the least error measured; its "

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <memory>
 #include <numbers>
 
 #include <glm/geometric.hpp>
 
-#include "Common/Core/Error.h"
+#include "Common/Core/Format.h"
 #include "Common/Render/FilmEstimate.h"
 #include "Common/Render/RenderParams.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
@@ -26,12 +25,6 @@ using namespace rt::scene;
 constexpr double kPi = std::numbers::pi;
 constexpr std::uint32_t kSide = 16;
 constexpr std::uint32_t kReplicates = 32;
-
-std::string text(const char* format, double x) {
-    char buffer[64];
-    std::snprintf(buffer, sizeof buffer, format, x);
-    return buffer;
-}
 
 // ---- scenes --------------------------------------------------------------------------------------------------------
 
@@ -169,7 +162,7 @@ class StabilitySuite {
     void addMean(const std::string& name, const Rendered& r, double exact, double allowance = 1e-5) {
         const double off = std::abs(r.mean - exact);
         const bool pass = r.nonfinite == 0 && off <= 4 * r.standardError + allowance * std::abs(exact);
-        add(name, r.mean / exact - 1, "within 4 standard errors + " + text("%.0e", allowance) + " of 0", pass);
+        add(name, r.mean / exact - 1, "within 4 standard errors + " + formatted("%.0e", allowance) + " of 0", pass);
     }
 
     static double differingPixels(const image::Image& a, const image::Image& b) {
@@ -193,11 +186,11 @@ class StabilitySuite {
         for (const int power : {-20, -13, 13, 20}) {
             const Rendered scaled = render(stillLife(std::exp2(power), dvec3(0)), 64);
             const double differing = differingPixels(original.image, scaled.image);
-            add("scale 2^" + std::to_string(power), differing, "differing pixels <= " + text("%.0f", tolerated()),
+            add("scale 2^" + std::to_string(power), differing, "differing pixels <= " + formatted("%.0f", tolerated()),
                 scaled.nonfinite == 0 && differing <= tolerated());
         }
         for (const double factor : {1e-4, 1e4})
-            compareMeans("scale " + text("%.0e", factor), stillLife(factor, dvec3(0)), original);
+            compareMeans("scale " + formatted("%.0e", factor), stillLife(factor, dvec3(0)), original);
     }
 
     // A scene and its camera far from the origin, where coordinates keep all their digits: no bit may change.
@@ -206,7 +199,8 @@ class StabilitySuite {
         for (const double distance : {131072.0, 1048576.0}) {
             const Rendered moved = render(stillLife(1, dvec3(distance, -distance, distance)), 64);
             const double differing = differingPixels(original.image, moved.image);
-            add("translation " + text("%.0f", distance), differing, "differing pixels <= " + text("%.0f", tolerated()),
+            add("translation " + formatted("%.0f", distance), differing,
+                "differing pixels <= " + formatted("%.0f", tolerated()),
                 moved.nonfinite == 0 && differing <= tolerated());
         }
         compareMeans("translation 1e6", stillLife(1, dvec3(1e6, 1e6, -1e6)), original);
@@ -225,7 +219,7 @@ class StabilitySuite {
             SphereDesc ball;
             ball.radius = radius, ball.material = "body";
             const Rendered rendered = render(convexBody({ball}, {0, 0, 1.5 * radius}, dvec3(0), 20), 256);
-            addMean("sphere of radius " + text("%.0e", radius) + ", self-shadowing", rendered, 0.5);
+            addMean("sphere of radius " + formatted("%.0e", radius) + ", self-shadowing", rendered, 0.5);
         }
         // One of radius 1 on one of radius 1e7: the small one sees half a sky, less what it hides of the ground.
         SphereDesc ground, ball;
@@ -285,7 +279,7 @@ class StabilitySuite {
             SceneDesc desc = litFloor();
             desc.objects.push_back({QuadDesc{corner, u, v, "light"}});
             const std::vector<dvec3> outline{corner, corner + u, corner + u + v, corner + v};
-            floors.push_back({"light's plane at " + text("%.0e", height), desc, irradianceOf(outline)});
+            floors.push_back({"light's plane at " + formatted("%.0e", height), desc, irradianceOf(outline)});
         }
         forEachShape(floors, 2e-3);
         SphereDesc low;
@@ -304,7 +298,7 @@ class StabilitySuite {
             mesh.triangles = {{0, 1, 2}};
             SceneDesc desc = litFloor();
             desc.objects.push_back({MeshDesc{mesh, "light"}});
-            floors.push_back({"sliver of 1 : " + text("%.0e", thickness / 2), desc, irradianceOf(mesh.positions)});
+            floors.push_back({"sliver of 1 : " + formatted("%.0e", thickness / 2), desc, irradianceOf(mesh.positions)});
         }
         forEachShape(floors, 1e-3);
     }
@@ -343,12 +337,13 @@ class StabilitySuite {
             desc.objects.push_back({MediumDesc{SphereBoundary{dvec3(0), 1.0}, 0.5 * depth, dvec3(1)}});
             app::RenderSettings settings;
             settings.maxDepth = 4096;
-            addMean("white medium of depth " + text("%.0e", depth), render(desc, 256, settings), 1, 1e-4);
+            addMean("white medium of depth " + formatted("%.0e", depth), render(desc, 256, settings), 1, 1e-4);
             desc = seenFrom({0, 0, 4}, dvec3(0), 1e-3);
             desc.background = ConstantBackground{dvec3(1)};
             desc.objects.push_back({MediumDesc{BoxBoundary{dvec3(-3, -3, -1), dvec3(3, 3, 1)}, 0.5 * depth, dvec3(0)}});
             if (depth > 1e-5 && depth < 10)
-                addMean("black medium of depth " + text("%.0e", depth), render(desc, 4096), std::exp(-depth), 1e-6);
+                addMean("black medium of depth " + formatted("%.0e", depth), render(desc, 4096), std::exp(-depth),
+                        1e-6);
         }
     }
 
@@ -387,7 +382,8 @@ std::vector<StabilityRow> measureStability(app::Engine& engine, const StabilityO
 Document describeStability(const std::vector<StabilityRow>& rows) {
     Table table{{"stress", "engine", "value", "criterion", "pass"}, {}};
     for (const StabilityRow& row : rows)
-        table.rows.push_back({row.name, row.engine, text("%.3g", row.value), row.criterion, row.pass ? "yes" : "NO"});
+        table.rows.push_back(
+            {row.name, row.engine, formatted("%.3g", row.value), row.criterion, row.pass ? "yes" : "NO"});
     const auto failed = std::count_if(rows.begin(), rows.end(), [](const StabilityRow& row) { return !row.pass; });
     return {Heading{1, "Numerical stability"}, table,
             Paragraph{std::to_string(rows.size()) + " rows, " + std::to_string(failed) + " failed"}};

@@ -1,12 +1,12 @@
 #include "Common/Core/AtomicFile.h"
 
-#include <cstdio>
 #include <mutex>
 #include <random>
 #include <set>
 #include <string_view>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Format.h"
 
 namespace rt {
 
@@ -19,9 +19,8 @@ constexpr std::string_view kPrefix = ".rt-", kSuffix = ".tmp";
 // Short, whatever the target's name, so that it fits wherever the target does.
 std::string temporaryName() {
     std::random_device device;
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%08x%08x", static_cast<unsigned>(device()), static_cast<unsigned>(device()));
-    return std::string(kPrefix) + digits + std::string(kSuffix);
+    const unsigned first = device(), second = device();
+    return std::string(kPrefix) + formatted("%08x%08x", first, second) + std::string(kSuffix);
 }
 
 bool isTemporary(const std::string& name) {

@@ -1,8 +1,9 @@
 #include "Common/Core/Printable.h"
 
 #include <cstdint>
-#include <cstdio>
 #include <optional>
+
+#include "Common/Core/Format.h"
 
 namespace rt {
 
@@ -45,9 +46,7 @@ bool isHidden(std::uint32_t code) {
 }
 
 std::string escaped(const char* format, std::uint32_t value) {
-    char text[16];
-    std::snprintf(text, sizeof text, format, static_cast<unsigned>(value));
-    return text;
+    return formatted(format, static_cast<unsigned>(value));
 }
 
 std::string escapedCharacter(std::uint32_t code) {

@@ -1,17 +1,11 @@
 #include "Common/Gui/Inspector.h"
 
-#include <cstdio>
 #include <utility>
+
+#include "Common/Core/Format.h"
 
 namespace rt::gui {
 namespace {
-
-template <class... Values>
-std::string text(const char* pattern, Values... values) {
-    char buffer[96];
-    std::snprintf(buffer, sizeof buffer, pattern, values...);
-    return buffer;
-}
 
 std::string nameOf(app::Legend::Quantity quantity) {
     using Quantity = app::Legend::Quantity;
@@ -46,28 +40,29 @@ std::vector<InspectedRow> inspectPixel(const app::Picture& picture, const image:
     const float* seen = find(picture.subject.get());
     if (rgb == nullptr || seen == nullptr) return {};
     constexpr const char* kPattern = "%.4g  %.4g  %.4g";
-    std::vector<InspectedRow> rows = {{"pixel", text("%u, %u", x, y), "", ""}};
+    std::vector<InspectedRow> rows = {{"pixel", formatted("%u, %u", x, y), "", ""}};
     // What is seen is compared with what was pinned, though the radiance may be another picture.
-    InspectedRow shown{"radiance", text(kPattern, seen[0], seen[1], seen[2]), "", ""};
+    InspectedRow shown{"radiance", formatted(kPattern, seen[0], seen[1], seen[2]), "", ""};
     if (const float* other = find(held)) {
         rows.front() = {"pixel", "B: picture", "A: pinned", "B - A"};
-        rows.push_back({"", text("%u, %u", x, y), "", ""});
-        shown.held = text(kPattern, other[0], other[1], other[2]);
-        shown.difference = text("%+.3g  %+.3g  %+.3g", seen[0] - other[0], seen[1] - other[1], seen[2] - other[2]);
+        rows.push_back({"", formatted("%u, %u", x, y), "", ""});
+        shown.held = formatted(kPattern, other[0], other[1], other[2]);
+        shown.difference = formatted("%+.3g  %+.3g  %+.3g", seen[0] - other[0], seen[1] - other[1], seen[2] - other[2]);
     }
     if (const float* value = find(picture.values.get()))
-        rows.push_back(
-            {picture.legend ? nameOf(picture.legend->quantity) : "view",
-             picture.values->channels == 1 ? text("%.4g", *value) : text(kPattern, value[0], value[1], value[2]), "",
-             ""});
+        rows.push_back({picture.legend ? nameOf(picture.legend->quantity) : "view",
+                        picture.values->channels == 1 ? formatted("%.4g", *value)
+                                                      : formatted(kPattern, value[0], value[1], value[2]),
+                        "", ""});
     if (picture.subject != picture.radiance) {
         shown.name = picture.isDenoised ? "denoised" : "half";
-        rows.push_back(std::exchange(shown, {"radiance", text(kPattern, rgb[0], rgb[1], rgb[2]), "", ""}));
+        rows.push_back(std::exchange(shown, {"radiance", formatted(kPattern, rgb[0], rgb[1], rgb[2]), "", ""}));
     }
     rows.push_back(std::move(shown));
     if (const float* variance = find(picture.variance.get()))
-        rows.push_back({"variance", text("%.3g  %.3g  %.3g", variance[0], variance[1], variance[2]), "", ""});
-    if (const float* samples = find(picture.samples.get())) rows.push_back({"samples", text("%.0f", *samples), "", ""});
+        rows.push_back({"variance", formatted("%.3g  %.3g  %.3g", variance[0], variance[1], variance[2]), "", ""});
+    if (const float* samples = find(picture.samples.get()))
+        rows.push_back({"samples", formatted("%.0f", *samples), "", ""});
     return rows;
 }
 

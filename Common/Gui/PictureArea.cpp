@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include <imgui.h>
 
 #include "Common/App/Interactive/VisibleSurface.h"
+#include "Common/Core/Format.h"
 #include "Common/Core/Printable.h"
 #include "Common/Gui/ObjectTools.h"
 #include "Common/Gui/Theme.h"
@@ -282,9 +282,7 @@ void PictureArea::turnWheel() {
         gui_.camera.dolly(io.MouseWheel);
     } else {
         gui_.camera.changeSpeed(io.MouseWheel);
-        char text[64];
-        std::snprintf(text, sizeof text, "Flying speed %.3g", gui_.camera.speed());
-        gui_.say(text);
+        gui_.say(formatted("Flying speed %.3g", gui_.camera.speed()));
     }
 }
 

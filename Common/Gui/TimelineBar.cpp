@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <imgui.h>
 
+#include "Common/Core/Format.h"
 #include "Common/Gui/Icons.h"
 #include "Common/Gui/ImGuiLayer.h"
 #include "Common/Gui/Widgets.h"
@@ -38,11 +38,10 @@ void drawPlayButtons(Gui& gui) {
 
 bool timeSlider(const char* id, const app::Timeline& timeline, double& seconds) {
     const double start = 0, end = timeline.length();
-    char format[64];
-    std::snprintf(format, sizeof format, "%%.3f of %.3f s", end);
+    const std::string format = formatted("%%.3f of %.3f s", end);
     double shown = seconds;
-    const bool isChanged =
-        ImGui::SliderScalar(id, ImGuiDataType_Double, &shown, &start, &end, format, ImGuiSliderFlags_AlwaysClamp);
+    const bool isChanged = ImGui::SliderScalar(id, ImGuiDataType_Double, &shown, &start, &end, format.c_str(),
+                                               ImGuiSliderFlags_AlwaysClamp);
     if (!isChanged || !std::isfinite(shown) || shown == seconds) return false;
     seconds = shown;
     return true;

@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdio>
-#include <limits>
 
-#include "Common/Image/Image.h"
+#include "Common/Core/Format.h"
 #include "Common/Shared/Base/Sampling.h"
 #include "Common/Shared/Texture/Color.h"
 
@@ -17,13 +14,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMost = 0.5;      // of the variance: that is most of it
 constexpr double kOneSample = 0.5; // likewise, of one sample
-
-template <class... Values>
-std::string formatted(const char* pattern, Values... values) {
-    char text[256];
-    std::snprintf(text, sizeof text, pattern, values...);
-    return text;
-}
 
 std::string bouncesText(std::uint32_t bounces) {
     if (bounces == 0) return "without a bounce";

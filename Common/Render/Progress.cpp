@@ -2,24 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "Common/Core/Format.h"
 
 namespace rt::app {
 namespace {
 
 constexpr double kTerminalSeconds = 0.2;
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-    char text[64];
-    std::snprintf(text, sizeof text, pattern, values...);
-    return text;
-}
-
 std::string describeRate(double samplesPerSecond) {
-    if (samplesPerSecond >= 1e9) return format("%.2f G samples/s", samplesPerSecond * 1e-9);
-    if (samplesPerSecond >= 1e6) return format("%.2f M samples/s", samplesPerSecond * 1e-6);
-    return format("%.1f k samples/s", samplesPerSecond * 1e-3);
+    if (samplesPerSecond >= 1e9) return formatted("%.2f G samples/s", samplesPerSecond * 1e-9);
+    if (samplesPerSecond >= 1e6) return formatted("%.2f M samples/s", samplesPerSecond * 1e-6);
+    return formatted("%.1f k samples/s", samplesPerSecond * 1e-3);
 }
 
 // 0:07, 12:05, 3:00:00
@@ -27,8 +21,8 @@ std::string describeSeconds(double seconds) {
     const auto whole = static_cast<long long>(std::ceil(std::min(seconds, 1e15)));
     const int s = static_cast<int>(whole % 60);
     const int m = static_cast<int>(whole / 60 % 60);
-    if (whole < 3600) return format("%d:%02d", m, s);
-    return format("%lld:%02d:%02d", whole / 3600, m, s);
+    if (whole < 3600) return formatted("%d:%02d", m, s);
+    return formatted("%lld:%02d:%02d", whole / 3600, m, s);
 }
 
 double samplesPerSecond(const ProgressState& state) {
@@ -42,14 +36,14 @@ std::string describeProgress(const ProgressState& state) {
     const double rate = samplesPerSecond(state);
     std::string text = std::to_string(state.samplesDone / state.pixels) + "/" +
                        std::to_string(state.samplesTotal / state.pixels) + " spp  " +
-                       format("%.0f%%", std::floor(100 * share));
+                       formatted("%.0f%%", std::floor(100 * share));
     if (rate > 0) {
         double left = static_cast<double>(state.samplesTotal - state.samplesDone) / rate;
         if (state.timeLimit) left = std::min(left, std::max(0.0, *state.timeLimit - state.seconds));
         text += "  " + describeRate(rate) + "  " + describeSeconds(left) + " left";
     }
     if (state.ranks > 0)
-        text += "  " + std::to_string(state.ranks) + " ranks, least busy " + format("%.0f%%", 100 * state.minBusy);
+        text += "  " + std::to_string(state.ranks) + " ranks, least busy " + formatted("%.0f%%", 100 * state.minBusy);
     return text;
 }
 
@@ -65,7 +59,7 @@ void Progress::update(const ProgressState& state) {
 
 void Progress::finish(const ProgressState& state, const std::string& ending) {
     if (style_ == Style::Silent) return;
-    write(std::to_string(state.samplesDone / state.pixels) + " spp in " + format("%.2f s", state.seconds) + "  " +
+    write(std::to_string(state.samplesDone / state.pixels) + " spp in " + formatted("%.2f s", state.seconds) + "  " +
               describeRate(samplesPerSecond(state)) + "  " + ending,
           true);
 }

@@ -1,12 +1,12 @@
 #include "Common/App/Interactive/ObjectTool.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "Common/Core/Format.h"
 #include "Common/Scene/Edit/ObjectMotion.h"
 
 namespace rt::app {
@@ -37,15 +37,7 @@ double toStep(double value, double step) {
 }
 
 std::string threeNumbers(const glm::dvec3& v) {
-    char text[96];
-    std::snprintf(text, sizeof text, ": %.4g, %.4g, %.4g", v.x, v.y, v.z);
-    return text;
-}
-
-std::string oneNumber(const char* format, double value) {
-    char text[48];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
+    return formatted(": %.4g, %.4g, %.4g", v.x, v.y, v.z);
 }
 
 } // namespace
@@ -122,8 +114,8 @@ std::optional<ObjectTool::Motion> ObjectTool::move(const ViewProjection& view, c
     const double step = moveStep(view);
     for (int i = 0; i < 3 && isSnapped; ++i) way[i] = toStep(way[i], step);
     std::string text = textOf("Move", "along");
-    text += isLine ? oneNumber(": %.4g", way[constraint_->axis]) : threeNumbers(way);
-    if (isSnapped) text += oneNumber(" by steps of %.4g", step);
+    text += isLine ? formatted(": %.4g", way[constraint_->axis]) : threeNumbers(way);
+    if (isSnapped) text += formatted(" by steps of %.4g", step);
     return Motion{{scene::Translate{axes_.directions * way}}, std::move(text)};
 }
 
@@ -160,7 +152,7 @@ std::optional<ObjectTool::Motion> ObjectTool::turn(const ViewProjection& view, c
     double degrees = (pointsAway ? -1 : 1) * glm::degrees(*angle);
     if (isSnapped) degrees = toStep(degrees, kTurnStep);
     return Motion{scene::turned(axes_.pivot, axis, degrees),
-                  textOf("Turn", "about") + oneNumber(": %.1f degrees", degrees)};
+                  textOf("Turn", "about") + formatted(": %.1f degrees", degrees)};
 }
 
 std::optional<ObjectTool::Motion> ObjectTool::scale(const ViewProjection& view, const glm::dvec2& place,

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "Common/App/Interactive/TurnTaking.h"
+#include "Common/Core/Format.h"
 #include "Common/Render/Names.h"
 
 namespace rt::app {
@@ -35,9 +35,7 @@ std::optional<double> timeFactor(const std::vector<RaceLane>& lanes, const RaceS
 }
 
 std::string threeDigits(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, value < 1000 ? "%.3g" : "%.0f", value);
-    return text;
+    return formatted(value < 1000 ? "%.3g" : "%.0f", value);
 }
 
 } // namespace

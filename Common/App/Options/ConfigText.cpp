@@ -1,12 +1,12 @@
 #include "Common/App/Options/ConfigText.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
 #include "Common/App/Options/OptionValues.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/Format.h"
 #include "Common/Scene/Json/JsonText.h"
 
 namespace rt::app {
@@ -145,9 +145,7 @@ void checkBytes(const std::string& text, const std::string& file) {
         if (byte == '\n') ++line;
         const bool endsLine = byte == '\r' && (i + 1 == text.size() || text[i + 1] == '\n');
         if ((byte >= 0x20 && byte != 0x7f) || byte == '\t' || byte == '\n' || endsLine) continue;
-        char name[8];
-        std::snprintf(name, sizeof name, "0x%02x", byte);
-        throw UsageError(file + ":" + std::to_string(line) + ": the byte " + name +
+        throw UsageError(file + ":" + std::to_string(line) + ": the byte " + formatted("0x%02x", byte) +
                          " is no text; must be TOML, INI or JSON in UTF-8");
     }
 }

@@ -1,7 +1,6 @@
 #include "Common/App/Session/ReferenceCache.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <span>
 #include <string>
@@ -10,6 +9,7 @@
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/BuildInfo.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/Format.h"
 #include "Common/Core/Hash.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/Paths.h"
@@ -51,9 +51,7 @@ fs::path ReferenceCache::fileOf(const ReferenceKey& key) const {
     const double camera[] = {c.lookFrom.x, c.lookFrom.y, c.lookFrom.z, c.lookAt.x,    c.lookAt.y,     c.lookAt.z,
                              c.up.x,       c.up.y,       c.up.z,       c.verticalFov, c.defocusAngle, c.focusDistance};
     hash = hashBytes(std::as_bytes(std::span(camera)), hash);
-    char name[32];
-    std::snprintf(name, sizeof name, "%016llx%s", static_cast<unsigned long long>(hash), kExtension);
-    return folder_ / name;
+    return folder_ / formatted("%016llx%s", static_cast<unsigned long long>(hash), kExtension);
 }
 
 bool ReferenceCache::has(const ReferenceKey& key) const {

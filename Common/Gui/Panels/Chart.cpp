@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "Common/Core/Format.h"
 
 namespace rt::gui {
 namespace {
@@ -31,13 +32,8 @@ bool isShown(const std::pair<double, double>& point) {
 }
 
 std::string decadeText(int exponent) {
-    char text[16];
-    if (exponent >= -2 && exponent <= 3) {
-        std::snprintf(text, sizeof text, "%g", std::pow(10.0, exponent));
-    } else {
-        std::snprintf(text, sizeof text, "1e%d", exponent);
-    }
-    return text;
+    if (exponent >= -2 && exponent <= 3) return formatted("%g", std::pow(10.0, exponent));
+    return formatted("1e%d", exponent);
 }
 
 class Plot {

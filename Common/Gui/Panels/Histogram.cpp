@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 
+#include "Common/Core/Format.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Widgets.h"
 #include "Common/Shared/Tonemap.h"
@@ -57,13 +57,11 @@ void drawHistogram(const Gui& gui) {
         exposure = gui.exposure();
         shown = histogramOf(*radiance, exposure);
     }
-    char text[96];
-    std::snprintf(text, sizeof text, "%.2g %% above white, %.2g %% black", 100 * shown.aboveWhite, 100 * shown.black);
     const float maximum = *std::max_element(shown.shares.begin(), shown.shares.end());
     ImGui::PlotHistogram("##histogram", shown.shares.data(), kBins, 0, nullptr, 0, std::max(maximum, 1e-6f),
                          {ImGui::GetContentRegionAvail().x, 5 * ImGui::GetFontSize()});
     tooltip("Luminance of the picture in stops, from 10 below white to 6 above, as it is exposed");
-    note(text);
+    note(formatted("%.2g %% above white, %.2g %% black", 100 * shown.aboveWhite, 100 * shown.black));
 }
 
 } // namespace rt::gui

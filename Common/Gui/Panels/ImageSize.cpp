@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
 #include "Common/App/Platform.h"
+#include "Common/Core/Format.h"
 #include "Common/Gui/Theme.h"
 #include "Common/Gui/Widgets.h"
 #include "Common/Image/Film.h"
@@ -145,9 +145,8 @@ void drawAspect(Gui& gui) {
                                    {"3:2", 1.5},      {"16:10", 1.6},    {"16:9", 16.0 / 9}, {"21:9", 21.0 / 9},
                                    {"3:4", 0.75},     {"9:16", 9.0 / 16}};
     const double ratio = aspectOf(gui);
-    char current[32];
-    std::snprintf(current, sizeof current, "%.3g : 1", ratio);
-    const char* name = current;
+    const std::string current = formatted("%.3g : 1", ratio);
+    const char* name = current.c_str();
     for (const Aspect& aspect : kAspects)
         if (std::abs(aspect.value - ratio) < 1e-9) name = aspect.name;
     markNextRow(ratio > 0);

@@ -1,9 +1,8 @@
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <string>
 
+#include "Common/Core/Format.h"
 #include "Common/Core/Printable.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/TimelineBar.h"
@@ -53,18 +52,14 @@ std::string shellWord(const std::string& text) {
 std::string sequenceCommand(const Gui& gui) {
     const app::Timeline& timeline = gui.timeline;
     const auto last = static_cast<std::uint64_t>(timeline.motion().length * timeline.frameRate() + 1e-6);
-    char numbers[96];
-    std::snprintf(numbers, sizeof numbers, " --time 0 --frames 0..%llu --frame-rate %.6g",
-                  static_cast<unsigned long long>(last), timeline.frameRate());
     std::string command = std::string(gui.isGpu ? app::kGpuProgram : app::kCpuProgram) + " --scene " +
-                          shellWord(gui.state.source) + numbers;
+                          shellWord(gui.state.source) +
+                          formatted(" --time 0 --frames 0..%llu --frame-rate %.6g",
+                                    static_cast<unsigned long long>(last), timeline.frameRate());
     if (timeline.motion().chosen > 0)
         command += " --animation " + shellWord(timeline.motion().animations[timeline.motion().chosen]);
-    if (timeline.shutter().isOpen()) {
-        std::snprintf(numbers, sizeof numbers, " --shutter %.9g,%.9g", timeline.shutter().open,
-                      timeline.shutter().close);
-        command += numbers;
-    }
+    if (timeline.shutter().isOpen())
+        command += formatted(" --shutter %.9g,%.9g", timeline.shutter().open, timeline.shutter().close);
     return command + " -o frame.png";
 }
 

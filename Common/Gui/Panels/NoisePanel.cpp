@@ -1,10 +1,10 @@
 // Why a pixel is noisy: its samples, what their variance is made of, and the paths that brought most.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
+#include "Common/Core/Format.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Widgets.h"
 #include "Common/Probe/PathsReport.h"
@@ -15,13 +15,6 @@ namespace {
 
 constexpr std::uint32_t kMostNoiseSamples = 65536, kMostListed = 256;
 constexpr float kStripHeight = 5; // in heights of the font
-
-template <class... Values>
-std::string noiseText(const char* pattern, Values... values) {
-    char text[192];
-    std::snprintf(text, sizeof text, pattern, values...);
-    return text;
-}
 
 // ---- the strip -----------------------------------------------------------------------------------------------------
 
@@ -92,7 +85,7 @@ void drawNoiseShare(const std::string& name, const char* tip, const probe::Noise
     const std::string number = probe::shareText(share.share);
     ImGui::SameLine(ImGui::GetCursorPosX() + width - textWidth(number));
     ImGui::TextUnformatted(number.c_str());
-    tooltip(noiseText("of the variance; %.4g of the mean", share.mean).c_str());
+    tooltip(formatted("of the variance; %.4g of the mean", share.mean).c_str());
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float length = std::max(width * static_cast<float>(std::clamp(share.share, 0.0, 1.0)), 1.0f);
@@ -128,21 +121,21 @@ std::string pathTipOf(const probe::ListedPath& path) {
     const probe::FoundLight& found = path.found;
     const auto value = [](float v) { return static_cast<double>(v); };
     std::string text =
-        noiseText("Sample %u, %s\nradiance %.4g %.4g %.4g\nthroughput %.4g %.4g %.4g\n", path.sample,
+        formatted("Sample %u, %s\nradiance %.4g %.4g %.4g\nthroughput %.4g %.4g %.4g\n", path.sample,
                   lightNameOf(found).c_str(), value(found.radiance.x), value(found.radiance.y), value(found.radiance.z),
                   value(found.throughput.x), value(found.throughput.y), value(found.throughput.z));
-    if (found.selection > 0) text += noiseText("chosen with probability %.4g\n", value(found.selection));
-    if (found.lightPdf > 0) text += noiseText("density of light sampling %.4g per steradian\n", value(found.lightPdf));
+    if (found.selection > 0) text += formatted("chosen with probability %.4g\n", value(found.selection));
+    if (found.lightPdf > 0) text += formatted("density of light sampling %.4g per steradian\n", value(found.lightPdf));
     if (found.directionPdf > 0)
-        text += noiseText("density of scattering %.4g per steradian\n", value(found.directionPdf));
-    if (found.weight > 0) text += noiseText("weight %.4g\n", value(found.weight));
+        text += formatted("density of scattering %.4g per steradian\n", value(found.directionPdf));
+    if (found.weight > 0) text += formatted("weight %.4g\n", value(found.weight));
     if (found.from[0] != 0 || found.from[1] != 0)
-        text += noiseText("of the pixel %+d, %+d from here\n", found.from[0], found.from[1]);
+        text += formatted("of the pixel %+d, %+d from here\n", found.from[0], found.from[1]);
     return text + "Click to see it alone";
 }
 
 std::string figureOrDash(float density) {
-    return density > 0 ? noiseText("%.3g", static_cast<double>(density)) : "-";
+    return density > 0 ? formatted("%.3g", static_cast<double>(density)) : "-";
 }
 
 void drawNoisePath(NoisyPixel& noise, std::size_t i, const probe::ListedPath& path) {
@@ -151,7 +144,7 @@ void drawNoisePath(NoisyPixel& noise, std::size_t i, const probe::ListedPath& pa
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const bool isClicked =
-        ImGui::Selectable(noiseText("%.3g", static_cast<double>(shared::luminance(found.radiance))).c_str(),
+        ImGui::Selectable(formatted("%.3g", static_cast<double>(shared::luminance(found.radiance))).c_str(),
                           noise.chosen == i, ImGuiSelectableFlags_SpanAllColumns);
     if (ImGui::IsItemHovered()) {
         noise.hovered = i;
@@ -198,12 +191,12 @@ probe::PathsPlace noisePlaceOf(const probe::PathsState& state) {
 
 void drawNoiseAnswer(Gui& gui, const probe::PathsState& state) {
     const probe::PathsResult& result = state.result.result;
-    note(noiseText("Pixel %u, %u: %zu samples%s", state.wish.pixel[0], state.wish.pixel[1], result.samples.size(),
+    note(formatted("Pixel %u, %u: %zu samples%s", state.wish.pixel[0], state.wish.pixel[1], result.samples.size(),
                    result.isDone ? "" : " ..."));
     const double relative = result.mean > 0 ? 100 * result.standardError() / result.mean : 0;
     ImGui::TextUnformatted(
-        noiseText("Mean %.4g +- %.2g (%.2g %%)", result.mean, result.standardError(), relative).c_str());
-    tooltip(noiseText("Luminance, and its standard error as for independent samples. Variance of a sample: %.4g",
+        formatted("Mean %.4g +- %.2g (%.2g %%)", result.mean, result.standardError(), relative).c_str());
+    tooltip(formatted("Luminance, and its standard error as for independent samples. Variance of a sample: %.4g",
                       result.variance)
                 .c_str());
     ImGui::PushTextWrapPos(0);

@@ -1,6 +1,6 @@
-#include <cstdio>
 #include <string>
 
+#include "Common/Core/Format.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Panels/StatusTexts.h"
 #include "Common/Gui/Theme.h"
@@ -53,14 +53,11 @@ void drawProgress(Gui& gui) {
 
 // The right end gives way to what matters of the left one.
 void drawStatusLine(Gui& gui) {
-    char fps[64];
     const double zoom = 100.0 * static_cast<double>(gui.shownScale);
     // Of a window at rest the rate says nothing.
     const bool isMoving = gui.state.activity == app::Activity::Rendering || !gui.state.stage.empty();
-    if (isMoving)
-        std::snprintf(fps, sizeof fps, "%.0f %%   %.0f fps   F1 help", zoom, gui.figures.window.framesPerSecond);
-    else
-        std::snprintf(fps, sizeof fps, "%.0f %%   F1 help", zoom);
+    const std::string rate = isMoving ? formatted("%.0f fps   ", gui.figures.window.framesPerSecond) : "";
+    const std::string fps = formatted("%.0f %%   ", zoom) + rate + "F1 help";
     const StatusParts parts = statusOf(gui.state);
     StatusParts minParts = parts;
     minParts.device.clear();
@@ -73,7 +70,7 @@ void drawStatusLine(Gui& gui) {
     tooltip(wholeOf(parts).c_str());
     if (!hasRight) return;
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - textWidth(fps));
-    ImGui::TextDisabled("%s", fps);
+    ImGui::TextDisabled("%s", fps.c_str());
 }
 
 } // namespace rt::gui

@@ -1,10 +1,9 @@
 #include "Common/Gui/Panels/RunTexts.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 
-#include "Common/App/Interactive/RunGroups.h"
+#include "Common/Core/Format.h"
 #include "Common/Render/Names.h"
 
 namespace rt::gui {
@@ -17,9 +16,7 @@ std::string engineText(const app::RunRecord& run) {
 }
 
 std::string factorText(double factor) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g\u00d7", factor);
-    return text;
+    return formatted("%.3g\u00d7", factor);
 }
 
 std::string ratioText(double ratio) {
@@ -27,9 +24,7 @@ std::string ratioText(double ratio) {
 }
 
 std::string percentText(double share) {
-    char text[24];
-    std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
-    return text;
+    return formatted("%.2g %%", 100 * share);
 }
 
 std::string headlineOf(const app::RunPair& pair, const app::RepeatedComparison& repeats) {
@@ -53,9 +48,7 @@ std::string whenText(const app::RunRecord& run) {
 }
 
 std::string errorText(double value) {
-    char text[24];
-    std::snprintf(text, sizeof text, "%.2e", value);
-    return value > 0 ? text : "-";
+    return value > 0 ? formatted("%.2e", value) : "-";
 }
 
 std::string errorKind(const app::RunRecord& run) {

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
-#include "Common/Gui/Theme.h"
+#include "Common/Core/Format.h"
 #include "Common/Gui/Widgets.h"
 #include "Common/Probe/ProbePicture.h"
 #include "Common/Shared/Tonemap.h"
@@ -41,9 +40,7 @@ const char* unitOf(probe::Quantity quantity) {
 }
 
 std::string valueText(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
+    return formatted("%.3g", value);
 }
 
 void drawSample(ImDrawList& list, const ImVec2& place, bool isByBsdf) {
@@ -104,12 +101,9 @@ void drawMapTip(const Plane& plane, const probe::ProbeResult& result) {
     const probe::DirectionMap& map = result.maps.front();
     const auto direction = map.directionOf(place);
     if (!direction) return;
-    char text[96];
-    std::snprintf(text, sizeof text, "%.4g %s\ndirection %.3f %.3f %.3f",
-                  static_cast<double>(map.values[map.cellAt(place)]), unitOf(result.settings.quantity),
-                  static_cast<double>(direction->x), static_cast<double>(direction->y),
-                  static_cast<double>(direction->z));
-    ImGui::SetTooltip("%s", text);
+    ImGui::SetTooltip("%.4g %s\ndirection %.3f %.3f %.3f", static_cast<double>(map.values[map.cellAt(place)]),
+                      unitOf(result.settings.quantity), static_cast<double>(direction->x),
+                      static_cast<double>(direction->y), static_cast<double>(direction->z));
 }
 
 // Brightness goes with the root of the value, so the middle stands for a quarter of the end.

@@ -1,9 +1,9 @@
 // What light sampling does at a point of the picture: which directions a strategy draws, by which density, how well.
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <vector>
 
+#include "Common/Core/Format.h"
 #include "Common/Core/Printable.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Panels/SamplerMap.h"
@@ -19,13 +19,6 @@ constexpr app::Named<SampleSpace> kSpaces[] = {
     {"hemisphere", SampleSpace::Hemisphere, "Hemisphere", probe::kProjections[1].help},
     {"square", SampleSpace::UnitSquare, "Unit square", "the random numbers that the directions are made of"}};
 
-template <class... Values>
-std::string textOf(const char* pattern, Values... values) {
-    char text[128];
-    std::snprintf(text, sizeof text, pattern, values...);
-    return text;
-}
-
 // ---- what is asked -------------------------------------------------------------------------------------------------
 
 std::string titleOf(const probe::Strategy& strategy, const probe::ProbeResult* result) {
@@ -33,7 +26,7 @@ std::string titleOf(const probe::Strategy& strategy, const probe::ProbeResult* r
     std::string title = "Light " + std::to_string(strategy.light);
     if (result == nullptr) return title;
     for (const probe::LightShare& share : result->selection)
-        if (share.light == strategy.light) title += textOf("  (%.3g %%)", 100.0 * share.probability);
+        if (share.light == strategy.light) title += formatted("  (%.3g %%)", 100.0 * share.probability);
     return title;
 }
 
@@ -93,7 +86,7 @@ void drawSettings(Gui& gui) {
 
 void drawTest(const probe::ProbeResult& result) {
     const double dropped = result.samples > 0 ? 100.0 * result.dropped / result.samples : 0;
-    note(textOf("Integral %.4f; %.3g %% of samples dropped", result.density.integral(), dropped));
+    note(formatted("Integral %.4f; %.3g %% of samples dropped", result.density.integral(), dropped));
     tooltip(
         "Of the density over all directions: 1, less what is dropped as absorbed, below the surface, or of a light "
         "without extent");
@@ -101,7 +94,7 @@ void drawTest(const probe::ProbeResult& result) {
     const probe::TestOf& last = result.tests.back();
     if (!last.test) return note("Chi-square: too few samples or cells");
     ImGui::TextUnformatted(
-        textOf("Chi-square %.1f of %zu degrees: p = %.3f", last.test->statistic, last.test->degrees, last.test->p)
+        formatted("Chi-square %.1f of %zu degrees: p = %.3f", last.test->statistic, last.test->degrees, last.test->p)
             .c_str());
     tooltip(
         "Pearson's test of the samples against the map. Below 0.001: they do not follow the density. Close to 1: "
@@ -130,19 +123,19 @@ void drawVariances(const probe::ProbeResult& result) {
     for (const probe::EstimateOf& estimate : sorted) {
         ImGui::TableNextColumn();
         ImGui::TextUnformatted(estimate.title.c_str());
-        tooltip(textOf("Mean %.4g: light of lamps and sky that comes by way of the point", estimate.mean).c_str());
+        tooltip(formatted("Mean %.4g: light of lamps and sky that comes by way of the point", estimate.mean).c_str());
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(textOf("%.3g", estimate.variance).c_str());
+        ImGui::TextUnformatted(formatted("%.3g", estimate.variance).c_str());
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(best > 0 ? textOf("%.3g", estimate.variance / best).c_str() : "-");
+        ImGui::TextUnformatted(best > 0 ? formatted("%.3g", estimate.variance / best).c_str() : "-");
     }
     ImGui::EndTable();
 }
 
 void drawAnswer(Gui& gui, const probe::ProbeState& state) {
     const probe::ProbeResult& result = state.result;
-    note(textOf("At %.3g, %.3g, %.3g of ", static_cast<double>(result.position.x),
-                static_cast<double>(result.position.y), static_cast<double>(result.position.z)) +
+    note(formatted("At %.3g, %.3g, %.3g of ", static_cast<double>(result.position.x),
+                   static_cast<double>(result.position.y), static_cast<double>(result.position.z)) +
          printable(result.material, 40) + (result.isDone ? "" : " ..."));
     drawSamplerMap(gui, state);
     drawTest(result);

@@ -1,7 +1,7 @@
-#include <cstdio>
 
 #include "Common/App/Platform.h"
 #include "Common/App/Session/FeatureNames.h"
+#include "Common/Core/Format.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Widgets.h"
 
@@ -26,14 +26,11 @@ std::string namesOf(const std::vector<std::string>& names) {
 void drawStatisticsPanel(Gui& gui) {
     const app::SessionState& state = gui.state;
     const app::EngineReport& report = state.report;
-    char text[96];
     const app::WindowFigures& window = gui.figures.window;
-    std::snprintf(text, sizeof text, "%.0f fps, a frame takes %.1f ms", window.framesPerSecond,
-                  1000 * window.medianTurn);
-    figure("Window", "Frames of the last second: only what is new is drawn; and the median time of a frame", text);
-    std::snprintf(text, sizeof text, "%.0f ms, of late %.0f ms", 1000 * window.longestTurn,
-                  1000 * gui.figures.longestOfLate);
-    figure("Longest stall", "The longest time that the window did not look for input; and that of the last 10 s", text);
+    figure("Window", "Frames of the last second: only what is new is drawn; and the median time of a frame",
+           formatted("%.0f fps, a frame takes %.1f ms", window.framesPerSecond, 1000 * window.medianTurn));
+    figure("Longest stall", "The longest time that the window did not look for input; and that of the last 10 s",
+           formatted("%.0f ms, of late %.0f ms", 1000 * window.longestTurn, 1000 * gui.figures.longestOfLate));
     figure("Slowest answer", "From a change of camera or settings to the first picture of it",
            state.slowestAnswer > 0 ? shortDuration(state.slowestAnswer) : "-");
     if (gui.isGpu) {
@@ -65,8 +62,8 @@ void drawStatisticsPanel(Gui& gui) {
     figure("Compiled out", "What it does not need, and no code runs for",
            namesOf(app::absentFeatureNames(report.features)));
     figure("NaN or Inf samples", "They count as black", std::to_string(report.nonfiniteSamples));
-    std::snprintf(text, sizeof text, "%.2g %%", 100 * report.cutOffShare());
-    figure("Cut off by max depth", "Of what paths carry: the picture may be darker by as much", text);
+    figure("Cut off by max depth", "Of what paths carry: the picture may be darker by as much",
+           formatted("%.2g %%", 100 * report.cutOffShare()));
 }
 
 } // namespace rt::gui
