@@ -9,7 +9,6 @@
 #include "Common/App/Options/OptionValues.h"
 #include "Common/Bench/Config.h"
 #include "Common/Bench/Import.h"
-#include "Common/Bench/Suite.h"
 #include "Common/Core/BuildInfo.h"
 #include "Common/Core/Error.h"
 #include "Common/Manual/Parse.h"

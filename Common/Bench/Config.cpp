@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <vector>
 
 #include "Common/App/Options/OptionValues.h"
 #include "Common/App/Session/SceneSource.h"

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <string>
-#include <variant>
-#include <vector>
 
 #include "Common/Bench/Overloaded.h"
 

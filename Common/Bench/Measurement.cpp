@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <memory>
-#include <optional>
 #include <utility>
 
 #include "Common/App/Platform.h"

@@ -1,7 +1,6 @@
 #include "Common/Bench/Pictures.h"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 #include "Common/Bench/Cells.h"

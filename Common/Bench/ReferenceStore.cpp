@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "Common/Image/Metrics.h"
 #include "Common/Render/FilmRun.h"
