@@ -191,11 +191,8 @@ void FileBrowser::drawEntries(std::optional<Path>& chosen) {
 
 std::optional<FileBrowser::Path> FileBrowser::draw(const std::vector<std::string>& recent) {
     std::optional<Path> chosen;
-    const ImVec2 all = ImGui::GetMainViewport()->Size;
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({0.5f * all.x, 0.5f * all.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({std::min(50 * em, 0.92f * all.x), std::min(34 * em, 0.88f * all.y)}, ImGuiCond_Appearing);
-    ImGui::SetNextWindowSizeConstraints({0, 0}, all);
+    placeNextWindow({50, 34}, {0.92f, 0.88f});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, ImGui::GetMainViewport()->Size);
     if (settling_ == kSettling) ImGui::SetNextWindowFocus();
     if (ImGui::Begin((request_.title + "###file-browser").c_str(), &isOpen_,
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
@@ -228,7 +225,7 @@ std::optional<FileBrowser::Path> FileBrowser::draw(const std::vector<std::string
         ImGui::SameLine(0, gap);
         if (button("Cancel", "Escape", true, cancel)) isOpen_ = false;
         if (isReplacing) note(printable(question_) + " exists: once more to replace it");
-        ImGui::BeginChild("##places", {11 * em, 0}, true);
+        ImGui::BeginChild("##places", {11 * ImGui::GetFontSize(), 0}, true);
         drawPlaces(recent, chosen);
         ImGui::EndChild();
         ImGui::SameLine();

@@ -2,22 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "Common/Core/Format.h"
 #include "Common/Gui/TextFit.h"
 
 namespace rt::gui {
 namespace {
 
 constexpr float kLabelShare = 0.40f; // of a row
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-    char text[128];
-    std::snprintf(text, sizeof text, pattern, values...);
-    return text;
-}
 
 // Edits a copy until the field is left. `edit` draws the field, which is told whether somebody types there.
 template <class T, class Edit>
@@ -121,6 +114,15 @@ void note(const std::string& text) {
     wrapped(text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
 }
 
+void placeNextWindow(const ImVec2& size, const ImVec2& mostOfScreen) {
+    const ImVec2 all = ImGui::GetMainViewport()->Size;
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({0.5f * all.x, 0.5f * all.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize(
+        {std::min(size.x * em, mostOfScreen.x * all.x), std::min(size.y * em, mostOfScreen.y * all.y)},
+        ImGuiCond_Appearing);
+}
+
 float textWidth(const std::string& text) {
     return ImGui::CalcTextSize(text.c_str()).x;
 }
@@ -172,7 +174,7 @@ bool inputReal(const char* label, const char* tip, double& value, double min, do
     return changed;
 }
 
-bool inputVector(const char* label, const char* tip, double (&value)[3]) {
+bool inputVector(const char* label, const char* tip, glm::dvec3& value) {
     row(label, tip);
     ImGui::PushID(label);
     bool changed = false;
@@ -250,29 +252,29 @@ bool button(const char* label, const char* tip, Usable usable, float width) {
 }
 
 std::string withPrefix(double value) {
-    if (value >= 1e9) return format("%.3g G", value * 1e-9);
-    if (value >= 1e6) return format("%.3g M", value * 1e-6);
-    if (value >= 1e3) return format("%.3g k", value * 1e-3);
-    return format("%.3g", value);
+    if (value >= 1e9) return formatted("%.3g G", value * 1e-9);
+    if (value >= 1e6) return formatted("%.3g M", value * 1e-6);
+    if (value >= 1e3) return formatted("%.3g k", value * 1e-3);
+    return formatted("%.3g", value);
 }
 
 std::string bytesText(std::uint64_t bytes) {
     const auto value = static_cast<double>(bytes);
-    if (value >= 1u << 30) return format("%.2f GiB", value / (1u << 30));
-    return format("%.1f MiB", value / (1u << 20));
+    if (value >= 1u << 30) return formatted("%.2f GiB", value / (1u << 30));
+    return formatted("%.1f MiB", value / (1u << 20));
 }
 
 std::string shortDuration(double seconds) {
-    if (seconds < 1) return format("%.3g ms", std::round(seconds * 1e5) / 100); // nothing below 0.01 ms
-    if (seconds < 60) return format("%.2f s", seconds);
+    if (seconds < 1) return formatted("%.3g ms", std::round(seconds * 1e5) / 100); // nothing below 0.01 ms
+    if (seconds < 60) return formatted("%.2f s", seconds);
     return roughDuration(seconds);
 }
 
 std::string roughDuration(double seconds) {
-    if (seconds < 60) return format("%.0f s", std::ceil(seconds));
+    if (seconds < 60) return formatted("%.0f s", std::ceil(seconds));
     const auto all = static_cast<long long>(std::min(seconds, 1e12));
-    if (all < 3600) return format("%lld:%02lld min", all / 60, all % 60);
-    return format("%lld:%02lld:%02lld h", all / 3600, all / 60 % 60, all % 60);
+    if (all < 3600) return formatted("%lld:%02lld min", all / 60, all % 60);
+    return formatted("%lld:%02lld:%02lld h", all / 3600, all / 60 % 60, all % 60);
 }
 
 } // namespace rt::gui

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include <glm/vec3.hpp>
 #include <imgui.h>
 
 #include "Common/Render/Names.h"
@@ -22,6 +23,8 @@ void wrapped(const std::string& text, const ImVec4& color);
 // The beginning of a text, ended by dots where it is wider than that.
 std::string elided(const std::string& text, float width);
 float textWidth(const std::string& text);
+// The next window appears in the middle, of this size in heights of the font, of at most these shares of the screen.
+void placeNextWindow(const ImVec2& size, const ImVec2& mostOfScreen);
 
 // All return whether the value has changed. Typed numbers count when the field is left, brought into their range.
 // `zero`: a word, without "%", that stands for 0 while nobody types.
@@ -29,7 +32,7 @@ bool inputCount(const char* label, const char* tip, std::uint32_t& value, std::u
                 std::uint32_t step, const char* zero = nullptr);
 bool inputReal(const char* label, const char* tip, double& value, double min, double max, const char* format,
                const char* zero = nullptr);
-bool inputVector(const char* label, const char* tip, double (&value)[3]);
+bool inputVector(const char* label, const char* tip, glm::dvec3& value);
 bool sliderReal(const char* label, const char* tip, double& value, double min, double max, const char* format,
                 bool logarithmic = false);
 // A field of text with a hint while it is empty. What is typed after it got the keyboard replaces its text. Whether it

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,13 +11,6 @@
 
 namespace rt::gui {
 namespace {
-
-bool editVector(const char* label, const char* tip, glm::dvec3& vector) {
-    double values[3] = {vector.x, vector.y, vector.z};
-    if (!inputVector(label, tip, values)) return false;
-    vector = {values[0], values[1], values[2]};
-    return true;
-}
 
 // The cameras that the scene has: its own, which may be one of those with names, and these.
 void drawCameras(Gui& gui) {
@@ -74,8 +66,8 @@ void drawCameraPanel(Gui& gui) {
                true, half)) {
         gui.pickFocus = !gui.pickFocus;
     }
-    bool moved = editVector("Position", "Where the camera is", camera.lookFrom);
-    moved |= editVector("Target", "What it looks at", camera.lookAt);
+    bool moved = inputVector("Position", "Where the camera is", camera.lookFrom);
+    moved |= inputVector("Target", "What it looks at", camera.lookAt);
     if (changed || moved) gui.camera.set(camera);
     if (moved && gui.camera.camera() != camera)
         gui.fail("No camera can look from this position at this target", app::ErrorSource::Camera);

@@ -16,13 +16,6 @@ namespace {
 
 constexpr double kLargestNumber = 1e9, kSmallestSize = 1e-9; // of scene files
 
-bool vectorField(const char* label, const char* tip, glm::dvec3& vector) {
-    double values[3] = {vector.x, vector.y, vector.z};
-    if (!inputVector(label, tip, values)) return false;
-    vector = {values[0], values[1], values[2]};
-    return true;
-}
-
 bool sizeField(const char* label, const char* tip, double& size) {
     return inputReal(label, tip, size, kSmallestSize, kLargestNumber, "%.5g");
 }
@@ -34,32 +27,32 @@ bool lightField(bool& isLight) {
 // Fields of what each kind of object is described by. All return whether something was changed.
 struct Fields {
     bool operator()(scene::SphereDesc& sphere) const {
-        bool changed = vectorField("Center", nullptr, sphere.center);
+        bool changed = inputVector("Center", nullptr, sphere.center);
         changed |= sizeField("Radius", nullptr, sphere.radius);
-        if (sphere.centerEnd) changed |= vectorField("Center at 1", "Where it is at time 1", *sphere.centerEnd);
+        if (sphere.centerEnd) changed |= inputVector("Center at 1", "Where it is at time 1", *sphere.centerEnd);
         return lightField(sphere.light) || changed;
     }
     bool operator()(scene::QuadDesc& quad) const {
-        bool changed = vectorField("Corner", nullptr, quad.corner);
-        changed |= vectorField("Edge U", "From the corner; U x V points to the front", quad.edgeU);
-        changed |= vectorField("Edge V", nullptr, quad.edgeV);
+        bool changed = inputVector("Corner", nullptr, quad.corner);
+        changed |= inputVector("Edge U", "From the corner; U x V points to the front", quad.edgeU);
+        changed |= inputVector("Edge V", nullptr, quad.edgeV);
         return lightField(quad.light) || changed;
     }
     bool operator()(scene::BoxDesc& box) const {
-        bool changed = vectorField("Least corner", nullptr, box.min);
-        changed |= vectorField("Largest corner", nullptr, box.max);
+        bool changed = inputVector("Least corner", nullptr, box.min);
+        changed |= inputVector("Largest corner", nullptr, box.max);
         return lightField(box.light) || changed;
     }
     bool operator()(scene::DiskDesc& disk) const {
-        bool changed = vectorField("Center", nullptr, disk.center);
-        changed |= vectorField("Normal", "Points to the front; of any length", disk.normal);
+        bool changed = inputVector("Center", nullptr, disk.center);
+        changed |= inputVector("Normal", "Points to the front; of any length", disk.normal);
         changed |= sizeField("Radius", nullptr, disk.radius);
         changed |= inputReal("Hole", "Radius of the hole", disk.innerRadius, 0, kLargestNumber, "%.5g");
         return lightField(disk.light) || changed;
     }
     bool operator()(scene::CylinderDesc& cylinder) const {
-        bool changed = vectorField("Base", nullptr, cylinder.base);
-        changed |= vectorField("Top", nullptr, cylinder.top);
+        bool changed = inputVector("Base", nullptr, cylinder.base);
+        changed |= inputVector("Top", nullptr, cylinder.top);
         changed |= sizeField("Radius", nullptr, cylinder.radius);
         return lightField(cylinder.light) || changed;
     }
@@ -68,20 +61,20 @@ struct Fields {
         if (auto* color = std::get_if<glm::dvec3>(&medium.albedo))
             changed |= inputColor("Albedo", "What is scattered of light that is stopped", *color);
         if (auto* sphere = std::get_if<scene::SphereBoundary>(&medium.boundary)) {
-            changed |= vectorField("Center", nullptr, sphere->center);
+            changed |= inputVector("Center", nullptr, sphere->center);
             return sizeField("Radius", nullptr, sphere->radius) || changed;
         }
         auto& box = std::get<scene::BoxBoundary>(medium.boundary);
-        changed |= vectorField("Least corner", nullptr, box.min);
-        return vectorField("Largest corner", nullptr, box.max) || changed;
+        changed |= inputVector("Least corner", nullptr, box.min);
+        return inputVector("Largest corner", nullptr, box.max) || changed;
     }
     bool operator()(scene::PointLightDesc& light) const {
-        const bool changed = vectorField("Position", nullptr, light.position);
+        const bool changed = inputVector("Position", nullptr, light.position);
         return inputLight("Intensity", "Irradiance at a distance of 1", light.intensity) || changed;
     }
     bool operator()(scene::SpotLightDesc& light) const {
-        bool changed = vectorField("Position", nullptr, light.position);
-        changed |= vectorField("Direction", "In which it shines", light.direction);
+        bool changed = inputVector("Position", nullptr, light.position);
+        changed |= inputVector("Direction", "In which it shines", light.direction);
         changed |= inputLight("Intensity", "Irradiance at a distance of 1", light.intensity);
         changed |= sliderReal("Inner angle", "Full up to it, in degrees", light.innerAngle, 0,
                               std::max(0.0, 0.99 * light.outerAngle), "%.1f");
@@ -90,7 +83,7 @@ struct Fields {
                changed;
     }
     bool operator()(scene::DirectionalLightDesc& light) const {
-        const bool changed = vectorField("Direction", "In which it shines", light.direction);
+        const bool changed = inputVector("Direction", "In which it shines", light.direction);
         return inputLight("Irradiance", "Of a surface across the direction", light.irradiance) || changed;
     }
     template <typename Other>
@@ -106,10 +99,10 @@ bool isSmall(const scene::ObjectDesc& object) {
 }
 
 bool stepField(std::variant<scene::Translate, scene::Rotate, scene::Scale, scene::Matrix>& step) {
-    if (auto* translate = std::get_if<scene::Translate>(&step)) return vectorField("Move", nullptr, translate->offset);
-    if (auto* scale = std::get_if<scene::Scale>(&step)) return vectorField("Scale", nullptr, scale->factors);
+    if (auto* translate = std::get_if<scene::Translate>(&step)) return inputVector("Move", nullptr, translate->offset);
+    if (auto* scale = std::get_if<scene::Scale>(&step)) return inputVector("Scale", nullptr, scale->factors);
     if (auto* rotate = std::get_if<scene::Rotate>(&step)) {
-        const bool changed = vectorField("Axis", "About which it is turned", rotate->axis);
+        const bool changed = inputVector("Axis", "About which it is turned", rotate->axis);
         return inputReal("Degrees", "Counter-clockwise as seen from the axis' end", rotate->degrees, -kLargestNumber,
                          kLargestNumber, "%.5g") ||
                changed;

@@ -128,10 +128,7 @@ void drawOverlay(Gui& gui, const Rect& area, float scale) {
 
 void drawErrors(Gui& gui) {
     if (!gui.showErrors) return;
-    const ImVec2 all = ImGui::GetMainViewport()->Size;
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({0.5f * all.x, 0.5f * all.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({std::min(44 * em, 0.9f * all.x), std::min(24 * em, 0.8f * all.y)}, ImGuiCond_Appearing);
+    placeNextWindow({44, 24}, {0.9f, 0.8f});
     if (ImGui::Begin("What went wrong", &gui.showErrors,
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
         if (button("Clear", "Forgets them all", {!gui.errors.all().empty(), "nothing went wrong so far"}))

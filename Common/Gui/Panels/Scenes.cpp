@@ -94,11 +94,8 @@ void drawFiles(Gui& gui) {
 
 void drawScenes(Gui& gui) {
     if (!gui.showScenes) return;
-    const ImVec2 all = ImGui::GetMainViewport()->Size;
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({0.5f * all.x, 0.5f * all.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({std::min(56 * em, 0.92f * all.x), std::min(46 * em, 0.88f * all.y)}, ImGuiCond_Appearing);
-    ImGui::SetNextWindowSizeConstraints({0, 0}, all);
+    placeNextWindow({56, 46}, {0.92f, 0.88f});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, ImGui::GetMainViewport()->Size);
     if (ImGui::Begin("Scenes", &gui.showScenes, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
         ImGui::SetNextItemWidth(-1);
         if (ImGui::IsWindowAppearing()) {
