@@ -1,7 +1,6 @@
 // Errors of the libraries as exceptions of Python, with the texts that the programs print.
 #include <exception>
 #include <pybind11/pybind11.h>
-#include <stdexcept>
 #include <string>
 
 #include "Common/Core/Error.h"

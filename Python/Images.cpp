@@ -1,5 +1,4 @@
 // Image files, metrics and tone curves.
-#include <filesystem>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <string>

@@ -1,6 +1,5 @@
 // The extension module raytracing._core. What users see is in Python/raytracing, which describes arguments and results;
 // everything here takes and gives plain arrays.
-#include <filesystem>
 #include <pybind11/pybind11.h>
 #include <string>
 

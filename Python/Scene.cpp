@@ -7,7 +7,6 @@
 #include <pybind11/stl.h>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Render/Stopwatch.h"

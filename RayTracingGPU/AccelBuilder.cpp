@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
-#include <utility>
 
 #include "Common/Core/Error.h"
 #include "Common/Vulkan/Check.h"

@@ -1,14 +1,9 @@
 #include "RayTracingGPU/DeviceDenoiser.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cstddef>
-#include <cstdint>
 #include <numeric>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "Common/Image/Denoise/DenoiseFilter.h"
 #include "Common/Image/Metrics.h"

@@ -1,7 +1,6 @@
 #include "RayTracingGPU/GpuDenoiser.h"
 
 #include <cstddef>
-#include <utility>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"

@@ -1,7 +1,6 @@
 #include "RayTracingGPU/GpuEngine.h"
 
 #include <algorithm>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>

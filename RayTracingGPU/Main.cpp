@@ -1,12 +1,10 @@
 // ray-tracing-gpu: flags to options, options to a session, and the engine it drives.
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "Common/App/Options/Options.h"

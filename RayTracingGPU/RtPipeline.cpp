@@ -1,6 +1,5 @@
 #include "RayTracingGPU/RtPipeline.h"
 
-#include <cstddef>
 #include <vector>
 
 #include "Common/Shared/Base/Features.h"

@@ -1,7 +1,6 @@
 #include "RayTracingGPU/ShaderTable.h"
 
 #include <cstring>
-#include <span>
 
 #include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/StagingRing.h"

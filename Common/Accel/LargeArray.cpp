@@ -1,6 +1,5 @@
 #include "Common/Accel/LargeArray.h"
 
-#include <cstdint>
 #include <new>
 
 #include "Common/Core/SystemMemory.h"

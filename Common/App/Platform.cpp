@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>
-#include <string>
 #include <system_error>
 #include <utility>
 

@@ -4,7 +4,6 @@
 
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
-#include <glm/vec3.hpp>
 
 namespace rt {
 

@@ -1,7 +1,5 @@
 #include "Common/Gui/Gui.h"
 
-#include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <utility>
 

@@ -1,11 +1,8 @@
 #include "Common/Gui/Icons.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <initializer_list>
-
-#include "Common/Gui/Widgets.h"
 
 namespace rt::gui {
 namespace {

@@ -6,7 +6,6 @@
 
 #include <imgui.h>
 
-#include "Common/Core/Error.h"
 #include "Common/Gui/Theme.h"
 
 namespace rt::gui {

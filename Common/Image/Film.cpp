@@ -1,6 +1,5 @@
 #include "Common/Image/Film.h"
 
-#include <algorithm>
 #include <limits>
 #include <new>
 #include <stdexcept>

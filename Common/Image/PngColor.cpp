@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstring>
 #include <sstream>
-#include <string>
 #include <string_view>
 
 #include "Common/Core/Primaries.h"

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <list>
-#include <memory>
 #include <optional>
 #include <string>
 #include <thread>

@@ -1,6 +1,5 @@
 #include "Common/Probe/PathsView.h"
 
-#include <algorithm>
 #include <exception>
 
 #include "Common/Core/Error.h"

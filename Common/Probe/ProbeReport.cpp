@@ -1,7 +1,5 @@
 #include "Common/Probe/ProbeReport.h"
 
-#include <algorithm>
-
 #include "Common/Image/ImageIo.h"
 #include "Common/Probe/ProbePicture.h"
 

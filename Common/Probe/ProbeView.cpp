@@ -3,7 +3,6 @@
 #include <chrono>
 #include <exception>
 #include <filesystem>
-#include <utility>
 
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"

@@ -1,7 +1,6 @@
 #include "Common/Scene/ModelFile.h"
 
 #include <map>
-#include <utility>
 
 #include "Common/Core/TextSearch.h"
 #include "Common/Scene/Obj/ObjLoader.h"

@@ -1,7 +1,6 @@
 #include "Common/Scene/Origins.h"
 
 #include <algorithm>
-#include <initializer_list>
 
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Scene/SceneDesc.h"

@@ -1,7 +1,6 @@
 #include "Common/Vulkan/DeviceMemory.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "Common/Vulkan/Check.h"
 

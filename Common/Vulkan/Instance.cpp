@@ -4,7 +4,6 @@
 #include <array>
 #include <cstring>
 #include <string>
-#include <vector>
 
 #include "Common/Core/Log.h"
 #include "Common/Vulkan/Check.h"

@@ -1,6 +1,5 @@
 #include "Common/Vulkan/PipelineCache.h"
 
-#include <array>
 #include <cstring>
 #include <span>
 #include <utility>

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
-#include <vector>
 
 #include "Common/Accel/Build/BinnedSplit.h"
 #include "Common/Accel/Build/BvhTask.h"

@@ -5,8 +5,6 @@
 #include <iomanip>
 #include <limits>
 #include <sstream>
-#include <string_view>
-#include <utility>
 
 #include <nlohmann/json.hpp>
 

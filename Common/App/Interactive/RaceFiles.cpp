@@ -11,7 +11,6 @@
 
 #include "Common/App/Interactive/CameraController.h"
 #include "Common/App/Interactive/RunHistory.h"
-#include "Common/App/Session/ReferenceCache.h"
 #include "Common/Render/Names.h"
 
 namespace rt::app {

@@ -1,7 +1,6 @@
 #include "Common/App/Interactive/SceneExport.h"
 
 #include <chrono>
-#include <filesystem>
 #include <memory>
 #include <utility>
 

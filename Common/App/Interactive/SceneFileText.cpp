@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <utility>
 
 #include "Common/Core/Error.h"
 #include "Common/Scene/Json/SceneJson.h"

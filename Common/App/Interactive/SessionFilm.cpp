@@ -1,7 +1,6 @@
 #include "Common/App/Interactive/SessionFilm.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <limits>
 #include <span>
 #include <utility>

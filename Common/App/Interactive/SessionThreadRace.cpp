@@ -1,5 +1,4 @@
 // The session's thread: races.
-#include <algorithm>
 #include <exception>
 #include <memory>
 #include <string>

@@ -1,6 +1,5 @@
 #include "Common/App/Interactive/ViewportThread.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "Common/App/Platform.h"

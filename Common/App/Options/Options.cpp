@@ -1,6 +1,5 @@
 #include "Common/App/Options/Options.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "Common/App/Options/Description.h"

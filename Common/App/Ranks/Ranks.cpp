@@ -1,12 +1,10 @@
 #include "Common/App/Ranks/Ranks.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include "Common/App/Platform.h"

@@ -7,7 +7,6 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Image/Denoise/FilmHalves.h"
-#include "Common/Render/PictureDenoiser.h"
 #include "Common/Render/Stopwatch.h"
 
 namespace rt::app {

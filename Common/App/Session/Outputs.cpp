@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "Common/App/Session/Attempt.h"
-#include "Common/App/Session/DenoiseFilm.h"
 #include "Common/App/Session/DistinctFiles.h"
 #include "Common/App/Session/ImagePart.h"
 #include "Common/App/Session/RenderNote.h"

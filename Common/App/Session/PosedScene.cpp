@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "Common/Core/ReadFile.h"
-#include "Common/Scene/ModelFile.h"
 
 namespace rt::app {
 

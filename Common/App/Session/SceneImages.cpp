@@ -1,7 +1,6 @@
 #include "Common/App/Session/SceneImages.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <map>
 #include <memory>

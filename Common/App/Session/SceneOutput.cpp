@@ -1,7 +1,5 @@
 #include "Common/App/Session/SceneOutput.h"
 
-#include <filesystem>
-
 #include "Common/App/Session/Outputs.h"
 #include "Common/App/Session/SceneImages.h"
 #include "Common/Image/ImageIo.h"

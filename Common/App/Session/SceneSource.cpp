@@ -1,9 +1,7 @@
 #include "Common/App/Session/SceneSource.h"
 
 #include <algorithm>
-#include <memory>
 #include <span>
-#include <string>
 #include <utility>
 
 #include <nlohmann/json.hpp>

@@ -3,8 +3,6 @@
 #include <cstdint>
 #include <exception>
 #include <iostream>
-#include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>

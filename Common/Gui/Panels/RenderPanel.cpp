@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <cctype>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -1,6 +1,5 @@
 #include "Common/Gui/Panels/RunTable.h"
 
-#include <algorithm>
 #include <string>
 #include <vector>
 

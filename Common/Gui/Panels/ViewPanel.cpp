@@ -1,4 +1,3 @@
-#include <string>
 
 #include "Common/Gui/Panels/ImageSize.h"
 #include "Common/Gui/Panels/Panels.h"

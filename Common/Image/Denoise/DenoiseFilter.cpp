@@ -1,7 +1,6 @@
 #include "Common/Image/Denoise/DenoiseFilter.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -10,7 +9,6 @@
 #include "Common/Core/Parallel.h"
 #include "Common/Image/Denoise/DenoiseKernel.h"
 #include "Common/Image/Denoise/FeatureSpace.h"
-#include "Common/Shared/Denoise/DenoiseFit.h"
 
 namespace rt::image {
 namespace {

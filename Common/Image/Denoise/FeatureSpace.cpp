@@ -5,8 +5,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "Common/Shared/Denoise/DenoiseFit.h"
-
 namespace rt::image {
 namespace {
 

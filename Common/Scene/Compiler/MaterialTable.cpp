@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <type_traits>
 
 #include "Common/Core/Error.h"
 #include "Common/Scene/Compiler/DirectionalAlbedos.h"

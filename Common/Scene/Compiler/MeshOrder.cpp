@@ -1,7 +1,6 @@
 #include "Common/Scene/Compiler/MeshOrder.h"
 
 #include <array>
-#include <cstdint>
 
 #include <glm/common.hpp>
 

@@ -1,6 +1,5 @@
 #include "Common/Scene/Compiler/ModelCache.h"
 
-#include "Common/Core/Error.h"
 #include "Common/Scene/Builtin/Placeholders.h"
 #include "Common/Scene/Compiler/CompileMemory.h"
 

@@ -5,7 +5,6 @@
 #include <functional>
 #include <numbers>
 #include <optional>
-#include <vector>
 
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/Compiler/CasterLights.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"

@@ -1,6 +1,5 @@
 #include "Common/Scene/Edit/SceneDocument.h"
 
-#include <algorithm>
 #include <iterator>
 
 #include "Common/Scene/Edit/EditCheck.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <string>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

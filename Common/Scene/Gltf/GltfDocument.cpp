@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <ostream>
 #include <string_view>
-#include <utility>
 
 #include <glm/common.hpp>
 

@@ -3,13 +3,10 @@
 #include <cstring>
 #include <exception>
 #include <limits>
-#include <map>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/OtherCase.h"
@@ -19,7 +16,6 @@
 #include "Common/Scene/Gltf/GltfCheck.h"
 #include "Common/Scene/Gltf/GltfMeshopt.h"
 #include "Common/Scene/Gltf/GltfUri.h"
-#include "Common/Scene/Gltf/GltfValues.h"
 #include "Common/Scene/Json/JsonText.h"
 
 namespace rt::scene {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -32,7 +31,6 @@
 #include "Common/Scene/Gltf/GltfSkin.h"
 #include "Common/Scene/Gltf/GltfValues.h"
 #include "Common/Scene/Json/JsonNode.h"
-#include "Common/Scene/Moment.h"
 #include "Common/Scene/Placing.h"
 
 namespace rt::scene {

@@ -1,7 +1,6 @@
 #include "Common/Scene/Gltf/GltfMaterialWriter.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>

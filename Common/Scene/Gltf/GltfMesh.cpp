@@ -14,7 +14,6 @@
 #include "Common/Scene/Counted.h"
 #include "Common/Scene/Gltf/GltfAccessor.h"
 #include "Common/Scene/Gltf/GltfSkin.h"
-#include "Common/Scene/Gltf/GltfValues.h"
 #include "Common/Scene/Json/JsonNode.h"
 #include "Common/Scene/Tangents.h"
 

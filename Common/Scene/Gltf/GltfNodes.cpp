@@ -1,7 +1,6 @@
 #include "Common/Scene/Gltf/GltfNodes.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
 #include <utility>
 
@@ -11,7 +10,6 @@
 
 #include "Common/Scene/Counted.h"
 #include "Common/Scene/Gltf/GltfAccessor.h"
-#include "Common/Scene/Gltf/GltfValues.h"
 
 namespace rt::scene {
 

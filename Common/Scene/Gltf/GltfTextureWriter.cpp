@@ -1,7 +1,6 @@
 #include "Common/Scene/Gltf/GltfTextureWriter.h"
 
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <utility>
 

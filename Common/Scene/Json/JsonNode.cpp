@@ -1,7 +1,6 @@
 #include "Common/Scene/Json/JsonNode.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <sstream>
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

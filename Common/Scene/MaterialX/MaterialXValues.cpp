@@ -1,6 +1,5 @@
 #include "Common/Scene/MaterialX/MaterialXValues.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "Common/Core/Printable.h"

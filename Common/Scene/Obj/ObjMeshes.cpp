@@ -9,7 +9,6 @@
 
 #include "Common/Scene/Counted.h"
 #include "Common/Scene/Obj/ObjGeometry.h"
-#include "Common/Scene/Obj/ObjText.h"
 #include "Common/Shared/Base/Types.h"
 #include "Common/Shared/Tonemap.h"
 

@@ -1,10 +1,8 @@
 #include "Common/Scene/Pbrt/PbrtLoader.h"
 
-#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <variant>

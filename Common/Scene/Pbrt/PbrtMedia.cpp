@@ -1,7 +1,6 @@
 #include "Common/Scene/Pbrt/PbrtMedia.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <variant>
 

@@ -1,6 +1,5 @@
 #include "Common/Scene/Pbrt/PbrtParameters.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <locale>

@@ -1,7 +1,6 @@
 #include "Common/Scene/Pbrt/PbrtParser.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>

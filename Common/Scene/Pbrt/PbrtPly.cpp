@@ -11,11 +11,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "Common/Core/Printable.h"
-#include "Common/Scene/Counted.h"
 #include "Common/Scene/Json/JsonNode.h"
 #include "Common/Scene/Obj/ObjText.h"
 #include "Common/Scene/Pbrt/PbrtBytes.h"

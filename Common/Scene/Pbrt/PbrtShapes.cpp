@@ -9,7 +9,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "Common/Core/Printable.h"
 #include "Common/Scene/Json/JsonNode.h"
 #include "Common/Scene/Pbrt/PbrtPatches.h"
 #include "Common/Scene/Pbrt/PbrtPly.h"

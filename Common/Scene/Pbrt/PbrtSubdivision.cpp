@@ -1,7 +1,6 @@
 #include "Common/Scene/Pbrt/PbrtSubdivision.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>

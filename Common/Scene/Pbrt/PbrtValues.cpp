@@ -1,7 +1,5 @@
 #include "Common/Scene/Pbrt/PbrtValues.h"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 

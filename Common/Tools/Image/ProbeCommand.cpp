@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdint>
 #include <iterator>
-#include <optional>
-#include <string>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
