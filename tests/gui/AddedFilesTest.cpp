@@ -46,8 +46,7 @@ class AddedFilesTest : public WindowTest {
         const auto isDropped = [&] {
             if (isMarkedUnsaved()) return true;
             EXPECT_TRUE(drop({(folder_ / name).string()}, x, y));
-            pause(3000);
-            return isMarkedUnsaved();
+            return eventually([this] { return isMarkedUnsaved(); }, 2 * kAnswered);
         };
         ASSERT_TRUE(eventually(isDropped, kSeen)) << log();
     }

@@ -78,8 +78,7 @@ class ComparisonTest : public WindowTest {
             if (condition()) return true;
             click(x, y);
             act("mousemove 1000 300"); // nothing is pointed at
-            for (int i = 0; i < 15 && !condition(); ++i) pause(100);
-            return condition();
+            return eventually(condition, kAnswered);
         });
     }
     // The texts of the table's rows, from the top: below the title of their column.
@@ -282,7 +281,7 @@ TEST_P(SharedComparisonTest, ColumnsCanBeChosen) {
     const auto toggleTime = [&] { // again where the machine was too busy to see it
         act("mousemove " + std::to_string(engine.x()) + " " + std::to_string(engine.y()) +
             " sleep 0.5 mousedown 3 sleep 0.2 mouseup 3");
-        for (int i = 0; i < 20 && !isMenuThere(); ++i) pause(100);
+        eventually(isMenuThere, kAnswered);
         for (const Place& time : placesOf("Time", {kSide, 0}))
             if (isMenuThere() && std::abs(time.y() - engine.y()) > 8) click(time.x(), time.y());
         key("Escape");

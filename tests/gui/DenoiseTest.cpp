@@ -30,8 +30,7 @@ class DenoiseWindowTest : public WindowTest {
     bool saves(const std::string& end) {
         return eventually([&] {
             key("F12");
-            pause(700);
-            return !isRunning() || !saved(end).empty();
+            return eventually([&] { return !isRunning() || !saved(end).empty(); }, kAnswered);
         });
     }
 };

@@ -233,7 +233,7 @@ bool Desktop::hasChild() const {
     return false;
 }
 
-bool Desktop::eventually(const std::function<bool()>& condition, std::chrono::seconds patience) {
+bool Desktop::eventually(const std::function<bool()>& condition, std::chrono::milliseconds patience) {
     const auto end = std::chrono::steady_clock::now() + patience;
     while (std::chrono::steady_clock::now() < end) {
         if (condition()) return true;

@@ -53,7 +53,7 @@ class Desktop : public testing::Test {
 
     // Waits for what takes a while on a busy machine; the time only ends a test that fails.
     static bool eventually(const std::function<bool()>& condition,
-                           std::chrono::seconds patience = std::chrono::seconds(240));
+                           std::chrono::milliseconds patience = std::chrono::seconds(240));
     static void pause(int milliseconds);
 
     std::filesystem::path folder_; // of this test: settings, pictures, files

@@ -47,14 +47,7 @@ class EditingTest : public WindowTest {
     bool isMarkedUnsaved() { return title().find("Ball*") == 0; }
     bool isSelected(const std::string& title) const { return isShown(title, kSidePlace); }
     bool selectBall() {
-        return eventually(
-            [this] {
-                if (isSelected("Sphere  /objects/0")) return true;
-                click(kBallX, kBallY);
-                pause(1500);
-                return isSelected("Sphere  /objects/0");
-            },
-            kSeen);
+        return clickPlace(kBallX, kBallY, [this] { return isSelected("Sphere  /objects/0"); });
     }
     // The window is closed, the edits are saved, and the ball has that material in the file.
     void endAndExpectOnBall(const std::string& material) {
@@ -105,8 +98,7 @@ TEST_P(EditingTest, TheBallGetsTheMaterialOfAFileThatIsDroppedOnIt) {
     const auto isDropped = [this] {
         if (isMarkedUnsaved()) return true;
         EXPECT_TRUE(drop({(folder_ / "cherry.mtlx").string()}, kBallX, kBallY));
-        pause(3000);
-        return isMarkedUnsaved();
+        return eventually([this] { return isMarkedUnsaved(); }, 2 * kAnswered);
     };
     ASSERT_TRUE(eventually(isDropped, kSeen)) << log();
     endAndExpectOnBall("Cherry");
@@ -139,8 +131,7 @@ TEST_P(EditingTest, TheBallGetsMaterialsOfTheLibrary) {
         const std::string end = std::to_string(kBallX) + " " + std::to_string(kBallY);
         act("mousemove " + start + " sleep 0.3 mousedown 1 sleep 0.3 mousemove_relative 30 -20 sleep 0.3 mousemove " +
             end + " sleep 0.5 mouseup 1 sleep 0.3");
-        pause(1500);
-        return isMarkedUnsaved();
+        return eventually([this] { return isMarkedUnsaved(); }, kAnswered);
     };
     ASSERT_TRUE(eventually(isDropped, kSeen)) << log();
     endAndExpectOnBall("Matt gold");
@@ -174,14 +165,8 @@ TEST_P(EditingTest, AnObjectIsMovedByKeysAndEditsAreNotLostInSilence) {
 TEST_P(EditingTest, SeveralObjectsAreOneToToolsAndToUndo) {
     startWithThreeBalls();
     ASSERT_FALSE(HasFatalFailure());
-    ASSERT_TRUE(eventually(
-        [this] {
-            click(kBallX - 3 * kUnit / 2, kBallY);
-            pause(1500);
-            return isSelected("Sphere  /objects/0");
-        },
-        kSeen))
-        << log();
+    const auto isFirst = [this] { return isSelected("Sphere  /objects/0"); };
+    ASSERT_TRUE(clickPlace(kBallX - 3 * kUnit / 2, kBallY, isFirst)) << log();
     act("keydown ctrl");
     click(kBallX + 3 * kUnit / 2, kBallY);
     act("keyup ctrl");
@@ -243,14 +228,8 @@ TEST_P(EditingTest, TheGizmoMovesSnapsAndDuplicates) {
 TEST_P(EditingTest, WhatIsHiddenIsNotInThePictureAndStaysInTheFile) {
     startWithThreeBalls();
     ASSERT_FALSE(HasFatalFailure());
-    ASSERT_TRUE(eventually(
-        [this] {
-            click(kBallX, kBallY);
-            pause(1500);
-            return isSelected("Sphere  /objects/1");
-        },
-        kSeen))
-        << log();
+    const auto isMiddle = [this] { return isSelected("Sphere  /objects/1"); };
+    ASSERT_TRUE(clickPlace(kBallX, kBallY, isMiddle)) << log();
     pointAtNothing();
     key("h");
     ASSERT_TRUE(eventually([this] { return isMarkedUnsaved(); }, kSeen)) << title() << log();
@@ -267,11 +246,7 @@ TEST_P(EditingTest, WhatIsHiddenIsNotInThePictureAndStaysInTheFile) {
     EXPECT_FALSE(isSelected("Sphere  /objects/1"));
     ASSERT_TRUE(clickText("Show all", kSidePlace, [this] { return isMarkedUnsaved(); })) << log();
     save([&] { return !isHidden(1); });
-    ASSERT_TRUE(eventually([this] {
-        click(kBallX, kBallY);
-        pause(1500);
-        return isSelected("Sphere  /objects/1");
-    }));
+    ASSERT_TRUE(clickPlace(kBallX, kBallY, isMiddle)) << log();
     key("shift+h");
     save([&] { return isHidden(0) && isHidden(2); });
     EXPECT_FALSE(isHidden(1));

@@ -32,14 +32,7 @@ class RecoveryTest : public WindowTest {
         start({"--scene", scene.string(), "--width", "64", "--spp", "4"});
     }
     bool selectBall() {
-        return eventually(
-            [this] {
-                if (isShown("Sphere  /objects/0", kSidePlace)) return true;
-                click(kBallX, kBallY);
-                pause(1500);
-                return isShown("Sphere  /objects/0", kSidePlace);
-            },
-            kSeen);
+        return clickPlace(kBallX, kBallY, [this] { return isShown("Sphere  /objects/0", kSidePlace); });
     }
     bool isMarkedUnsaved() { return title().find("Ball*") == 0; }
     // The ball gets another material.
@@ -152,8 +145,7 @@ TEST_P(RecoveryTest, WhatIsNotSavedIsAskedForAgain) {
     const auto isAsked = [&] {
         if (isShown("Discard them")) return true;
         EXPECT_TRUE(drop({bad.string()}));
-        pause(2000);
-        return isShown("Discard them");
+        return eventually([this] { return isShown("Discard them"); }, kAnswered);
     };
     ASSERT_TRUE(eventually(isAsked, kSeen)) << log();
     ASSERT_TRUE(clickText("Discard them", [this] { return log().find("bad.json") != std::string::npos; })) << log();

@@ -63,14 +63,8 @@ TEST_P(ViewportsTest, TwoHaveSettingsAndCamerasOfTheirOwnAndOneScene) {
     EXPECT_TRUE(appears("4 spp", kRight));
 
     // An edit reaches both.
-    ASSERT_TRUE(eventually(
-        [this] {
-            click(kLeft.x(), kBallY);
-            pause(1500);
-            return isShown("Sphere  /objects/0", {0, 0, kSide, kHeight});
-        },
-        kSeen))
-        << log();
+    const auto isSelected = [this] { return isShown("Sphere  /objects/0", {0, 0, kSide, kHeight}); };
+    ASSERT_TRUE(clickPlace(kLeft.x(), kBallY, isSelected)) << log();
     key("Delete");
     EXPECT_TRUE(bothShowBall(false)) << log();
     key("ctrl+z");

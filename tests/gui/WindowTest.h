@@ -22,7 +22,8 @@ constexpr std::uint32_t kWindowColor = 0x1b1c20; // of the dark theme
 class WindowTest : public Desktop, public testing::WithParamInterface<const char*> {
   protected:
     static constexpr std::chrono::seconds kSeen{90}; // in which all that is drawn is seen, however busy the machine is
-    static constexpr int kSide = 372;                // where the panels at the side end
+    static constexpr std::chrono::milliseconds kAnswered{1500}; // in which a window that has seen a click answers
+    static constexpr int kSide = 372;                           // where the panels at the side end
 
     // By an engine that is named: `auto` would let a software driver compile every engine first.
     void start(std::vector<std::string> arguments = {}) {
@@ -60,8 +61,17 @@ class WindowTest : public Desktop, public testing::WithParamInterface<const char
                 if (places.empty()) return false;
                 click(places.front().x(), places.front().y());
                 pointAtNothing();
-                for (int i = 0; i < 15 && !condition(); ++i) pause(100);
-                return condition();
+                return eventually(condition, kAnswered);
+            },
+            kSeen);
+    }
+    // Clicks there until the condition holds, likewise.
+    bool clickPlace(int x, int y, const std::function<bool()>& condition) {
+        return eventually(
+            [&] {
+                if (condition()) return true;
+                click(x, y);
+                return eventually(condition, kAnswered);
             },
             kSeen);
     }
