@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "Common/Scene/Compiler/LightTable.h"
 #include "Common/Shared/Light/DiskLight.h"
 #include "tests/unit/Statistics.h"
 
@@ -82,7 +83,7 @@ TEST(EllipseMaps, RadialDrawsAreUniformInTheParallelSquare) {
     for (const EllipseView& view : kViews) {
         const SphericalEllipse e = ellipseOf(view);
         const ParallelMap parallel(e);
-        const EllipseReceiver none = ellipseReceiver(e, vec3(0));
+        const vec3 none(0);
         test::Uniforms uniform(1);
         std::vector<std::uint64_t> counts(kCells * kCells);
         test::Mean solidAngle;
@@ -101,7 +102,7 @@ TEST(EllipseMaps, TheParallelMapInvertsAndHasProductionsDensity) {
     for (const EllipseView& view : kViews) {
         const SphericalEllipse e = ellipseOf(view);
         const ParallelMap parallel(e);
-        const EllipseReceiver none = ellipseReceiver(e, vec3(0));
+        const vec3 none(0);
         test::Uniforms uniform(2);
         test::Mean ratio; // of both densities over draws of one is 1 on average
         for (int i = 0; i < 4000; ++i) {
@@ -115,15 +116,15 @@ TEST(EllipseMaps, TheParallelMapInvertsAndHasProductionsDensity) {
     }
 }
 
-// Why production has the radial map: it takes the receiver's cosine along, which halves the variance and more where
-// that varies.
+// Why production has the radial map: it takes the receiver's cosine along, which leaves a tenth of the variance and
+// less where that varies.
 TEST(EllipseMaps, TheRadialMapTakesTheReceiversCosineAlong) {
     for (const EllipseView& view : {EllipseView{0.5, 60}, EllipseView{1, 0}, EllipseView{3, 0}}) {
         const SphericalEllipse e = ellipseOf(view);
         const ParallelMap parallel(e);
         const dvec3 way = glm::normalize(dvec3(toCenterOf(view)));
         const dvec3 normal = 0.5 * way + std::sqrt(0.75) * dvec3(0, 1, 0);
-        const EllipseReceiver receiver = ellipseReceiver(e, vec3(normal));
+        const vec3 receiver = toEllipse(e, vec3(normal));
         test::Uniforms uniform(3);
         test::Mean radial, other;
         for (int i = 0; i < 20000; ++i) {
@@ -133,7 +134,48 @@ TEST(EllipseMaps, TheRadialMapTakesTheReceiversCosineAlong) {
             other.add(std::max(glm::dot(normal, parallel.direction(u)), 0.0) * parallel.solidAngle());
         }
         EXPECT_TRUE(test::agrees(radial, other.mean(), 4 * other.standardError() / other.mean()));
-        EXPECT_LT(2 * radial.relativeVariance(), other.relativeVariance()) << view.distance << ' ' << view.angle;
+        EXPECT_LT(10 * radial.relativeVariance(), other.relativeVariance()) << view.distance << ' ' << view.angle;
+    }
+}
+
+// Irradiance at the origin from a disk of radius 1 and radiance 1, by `auto` or uniformly in solid angle, with `side`
+// times `side` jittered cells: variance of the mean times the number of cells, over the squared mean.
+double strataVariance(const EllipseView& view, uint method, double receiver, double around, int side) {
+    RenderParams params{};
+    params.quadLight = method;
+    const dvec3 center(toCenterOf(view)), way = glm::normalize(center);
+    const double turn = receiver * pi / 180, about = around * pi / 180;
+    const dvec3 aside = std::cos(about) * dvec3(way.z, 0, -way.x) + std::sin(about) * dvec3(0, 1, 0);
+    const vec3 normal(std::cos(turn) * way + std::sin(turn) * aside);
+    const Light light = scene::diskLight({vec3(center), vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), 0, 0, kNone});
+    test::Uniforms uniform(4);
+    test::Mean estimates;
+    for (int i = 0; i < 400; ++i) {
+        double sum = 0;
+        for (int cell = 0; cell < side * side; ++cell) {
+            const vec2 u = (vec2(cell % side, cell / side) + uniform.pair()) * (1 / float(side));
+            const LightSample s = sampleDiskLight(params, light, vec3(0), normal, u);
+            if (s.pdf > 0) sum += std::max(double(glm::dot(normal, s.wi)), 0.0) / double(s.pdf);
+        }
+        estimates.add(sum / (side * side));
+    }
+    return estimates.relativeVariance() * side * side;
+}
+
+// Weights for the receiver must not cost what strata gain: from any place, with one sample as with 64, they are less
+// noisy than none, by far where the cosine varies. Weights of the azimuth alone have up to 7 times the noise of none here.
+TEST(EllipseMaps, TheReceiversCosineLeavesStrataTheirGain) {
+    for (const EllipseView& view : kViews) {
+        for (const double receiver : {30, 60, 90}) {
+            for (const double around : {20, 45, 90, -45}) {
+                for (const int side : {1, 4, 8}) {
+                    const double uniform = strataVariance(view, kShapeSolidAngle, receiver, around, side);
+                    const double weighted = strataVariance(view, kShapeAuto, receiver, around, side);
+                    EXPECT_LT(weighted, side == 8 ? uniform : uniform / 4)
+                        << view.distance << ' ' << view.angle << ' ' << receiver << ' ' << around << ' ' << side;
+                }
+            }
+        }
     }
 }
 

@@ -31,8 +31,8 @@ RT_FN uint diskLightStrategy(RT_IN(RenderParams) params, RT_IN(Light) light, vec
 }
 
 // `normal`: the receiver's, zero in a medium; so in all of these.
-RT_FN EllipseReceiver diskReceiver(RT_IN(RenderParams) params, RT_IN(SphericalEllipse) e, vec3 normal) {
-    return ellipseReceiver(e, params.quadLight == kShapeAuto ? normal : vec3(0.0f));
+RT_FN vec3 diskReceiver(RT_IN(RenderParams) params, RT_IN(SphericalEllipse) e, vec3 normal) {
+    return params.quadLight == kShapeAuto ? toEllipse(e, normal) : vec3(0.0f);
 }
 
 // A point of the unit disk but for its hole, uniform in area.
