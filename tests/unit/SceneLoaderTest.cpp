@@ -1,6 +1,10 @@
 // Scenes that are loaded on a thread of their own, and loads that are called off.
 #include <atomic>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -10,6 +14,8 @@
 
 #include "Common/App/Session/SceneLoader.h"
 #include "Common/Core/Interruption.h"
+#include "Common/Scene/Edit/ObjectMotion.h"
+#include "tests/TempFolder.h"
 
 namespace rt::app {
 namespace {
@@ -72,6 +78,65 @@ TEST(SceneLoader, WhatIsGivenUpIsNotHandedOverAndWasNeverRequested) {
     EXPECT_TRUE(loader.isWanted({"cornell-box-lights"}));
     while (loader.busyWith()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     EXPECT_EQ(count, 2);
+}
+
+void waitUntil(const std::function<bool()>& condition) {
+    while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+// Where the first edit would begin from nothing it would see what has become of the model's file.
+TEST(SceneLoader, TheFirstEditTakesOverWhatIsShown) {
+    const test::TempFolder folder;
+    const std::filesystem::path model = folder.path() / "corner.obj", file = folder.path() / "scene.json";
+    std::ofstream(model) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\n";
+    std::ofstream(file) << R"({"version": 1, "materials": {"m": {"type": "lambertian", "albedo": [0.5, 0.5, 0.5]}},
+        "prototypes": {"corner": [{"type": "mesh", "file": "corner.obj", "material": "m"}]},
+        "objects": [{"type": "instance", "prototype": "corner"}, {"type": "instance", "prototype": "corner"}]})";
+    std::mutex mutex;
+    LoadedScene latest;
+    SceneLoader loader([&](LoadedScene loaded) {
+        const std::scoped_lock lock(mutex);
+        latest = std::move(loaded);
+    });
+    loader.request({file.string()});
+    waitUntil([&] { return loader.isResting(); });
+    ASSERT_TRUE(latest.scene);
+    scene::SceneDesc scene = loadScene(file.string());
+    loader.startEditing(scene);
+    waitUntil([&] { return loader.isResting(); });
+    EXPECT_EQ(latest.request.edits, 0u) << "what is prepared is not shown";
+    const auto move = moved(scene, {"", {1}}, {scene::Translate{{2, 0, 0}}});
+    auto ofWindow = move;
+    scene::exchange(scene, ofWindow);
+    const std::uint64_t expected = compile(scene, true)->hash;
+    std::ofstream(model) << "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n";
+    loader.edit({move}, true);
+    waitUntil([&] { return loader.isResting(); });
+    ASSERT_EQ(latest.request.edits, 1u);
+    ASSERT_TRUE(latest.scene);
+    EXPECT_EQ(latest.scene->hash, expected) << "the model was read again";
+}
+
+// Another scene does not wait until edits of the one before are prepared.
+TEST(SceneLoader, WhatIsPreparedGivesWayToAnotherScene) {
+    std::mutex mutex;
+    std::vector<std::string> loaded;
+    SceneLoader loader([&](const LoadedScene& result) {
+        const std::scoped_lock lock(mutex);
+        loaded.push_back(result.failure ? "failed" : result.request.source);
+    });
+    loader.request({"cornell-box-lights"});
+    waitUntil([&] { return loader.isResting(); });
+    loader.startEditing(loadScene("many-lights:1000000")); // seconds
+    loader.request({"one-weekend-default"});
+    loader.stopEditing();
+    waitUntil([&] { return loader.isResting(); });
+    loader.startEditing(loadScene("cornell-box-lights"));
+    loader.stopEditing();
+    loader.startEditing(loadScene("one-weekend-default"));
+    loader.edit({scene::SetTitle{"Edited"}}, false);
+    waitUntil([&] { return loader.isResting(); });
+    EXPECT_EQ(loaded, (std::vector<std::string>{"cornell-box-lights", "one-weekend-default", "one-weekend-default"}));
 }
 
 } // namespace

@@ -99,17 +99,22 @@ void SceneLoader::ask(SceneRequest request) {
 }
 
 void SceneLoader::startEditing(scene::SceneDesc scene) {
-    const std::scoped_lock lock(mutex_);
-    edited_ = handedOver_;
-    nextDescription_ = std::move(scene);
-    nextEdits_.clear();
+    {
+        const std::scoped_lock lock(mutex_);
+        edited_ = handedOver_;
+        nextDescription_ = std::move(scene);
+        nextEdits_.clear();
+        if (isPreparing_) callOff_ = true;
+    }
+    wake_.notify_one();
 }
 
 void SceneLoader::stopEditing() {
     const std::scoped_lock lock(mutex_);
     nextDescription_.reset();
     nextEdits_.clear();
-    forgetsDescription_ = current_.has_value();
+    if (isPreparing_) callOff_ = true;
+    forgetsDescription_ = current_ || isPreparing_;
     if (!forgetsDescription_) forgetDescription(); // the thread rests
 }
 
@@ -118,7 +123,7 @@ std::uint64_t SceneLoader::edit(std::vector<scene::SceneEdit> edits, bool isGest
     {
         const std::scoped_lock lock(mutex_);
         std::move(edits.begin(), edits.end(), std::back_inserter(nextEdits_));
-        const bool goesOn = isGesture && current_ && current_->edits > 0;
+        const bool goesOn = isPreparing_ || (isGesture && current_ && current_->edits > 0);
         edited_.edits = number = ++edits_;
         ask(edited_);
         if (!goesOn) callOff_ = true;
@@ -193,6 +198,11 @@ SceneRequest SceneLoader::lastRequest() const {
     return last_;
 }
 
+bool SceneLoader::isResting() const {
+    const std::scoped_lock lock(mutex_);
+    return !next_ && !current_ && !nextDescription_ && !isPreparing_;
+}
+
 std::optional<std::string> SceneLoader::busyWith() const {
     const std::scoped_lock lock(mutex_);
     if (next_) return next_->source;
@@ -206,20 +216,43 @@ void SceneLoader::forgetDescription() {
     doneEdits_.clear();
 }
 
+// Compiles what is shown, to know its surfaces by the meshes of the description. The memory has the scene that there is:
+// another one like it would be of no use.
+void SceneLoader::prepareEdits(const SceneRequest& request, const std::weak_ptr<const scene::CompiledScene>& shown) {
+    const Interruptible interruptible(callOff_);
+    try {
+        const std::uint64_t hash = compileKept(*description_, request, &memory_)->hash;
+        memory_.scene = shown.lock();
+        if (memory_.scene && memory_.scene->hash == hash) return;
+    } catch (...) { // which the first edit will tell
+    }
+    memory_ = {};
+}
+
 void SceneLoader::work() {
     lowerThreadPriority();
     std::unique_lock lock(mutex_);
     while (true) {
-        wake_.wait(lock, [this] { return quit_ || next_; });
-        if (quit_) return;
-        current_ = std::exchange(next_, std::nullopt);
-        const SceneRequest request = *current_;
-        callOff_ = false;
         if (std::exchange(forgetsDescription_, false)) forgetDescription();
+        wake_.wait(lock, [this] { return quit_ || next_ || nextDescription_; });
+        if (quit_) return;
+        callOff_ = false;
         if (nextDescription_) {
             forgetDescription();
             description_ = std::exchange(nextDescription_, std::nullopt);
         }
+        if (!next_) {
+            isPreparing_ = true;
+            const SceneRequest asShown = edited_;
+            const auto shown = shown_;
+            lock.unlock();
+            prepareEdits(asShown, shown);
+            lock.lock();
+            isPreparing_ = false;
+            continue;
+        }
+        current_ = std::exchange(next_, std::nullopt);
+        const SceneRequest request = *current_;
         std::vector<scene::SceneEdit> edits = std::exchange(nextEdits_, {});
         lock.unlock();
         for (scene::SceneEdit& edit : edits) {
@@ -233,6 +266,7 @@ void SceneLoader::work() {
         const bool wanted = !quit_ && !isGivenUp_ && (!next_ || isEarlier);
         if (wanted) {
             handedOver_ = request;
+            if (loaded.scene) shown_ = loaded.scene;
             lock.unlock();
             onLoaded_(std::move(loaded));
             lock.lock();

@@ -49,7 +49,8 @@ class SceneLoader {
     // What is loaded or has just been; the last request is then the one before that was handed over.
     void giveUp();
     bool isWanted(const SceneRequest& request) const; // nothing else has been requested, nor has it been given up
-    // From now on the scene that was handed over last is edited: this is its description.
+    // From now on the scene that was handed over last is edited: this is its description. It is compiled once where
+    // nobody waits for it, so that the first edit takes over as much as those after it.
     void startEditing(scene::SceneDesc scene);
     void stopEditing(); // forgets it
     // Edits that the window's own description has got; what they make of this one is compiled and handed over. What is
@@ -59,6 +60,7 @@ class SceneLoader {
     std::uint64_t edit(std::vector<scene::SceneEdit> edits, bool isGesture);
     // Which file the edited scene is in by now.
     void rename(const std::string& source);
+    bool isResting() const; // neither loads nor prepares anything, nor is about to
     // What is being loaded, if anything.
     std::optional<std::string> busyWith() const;
 
@@ -67,6 +69,7 @@ class SceneLoader {
     void loadPose(const SceneRequest& request, LoadedScene& result);
     void ask(SceneRequest request);
     void forgetDescription();
+    void prepareEdits(const SceneRequest& request, const std::weak_ptr<const scene::CompiledScene>& shown);
     void work();
 
     std::function<void(LoadedScene)> onLoaded_;
@@ -74,11 +77,13 @@ class SceneLoader {
     std::condition_variable wake_;
     SceneRequest last_; // requested
     SceneRequest handedOver_;
-    bool isGivenUp_ = false; // what is being loaded
+    std::weak_ptr<const scene::CompiledScene> shown_; // as it was handed over last
+    bool isGivenUp_ = false;                          // what is being loaded
     std::optional<SceneRequest> next_;
     std::optional<SceneRequest> current_;
+    bool isPreparing_ = false; // for edits that may come
     bool quit_ = false;
-    std::atomic<bool> callOff_{false};                // what is being loaded
+    std::atomic<bool> callOff_{false};                // what is being loaded, or prepared
     SceneRequest edited_;                             // of the scene that is edited, as it was handed over
     std::uint64_t edits_ = 0;                         // of requests so far
     std::optional<scene::SceneDesc> nextDescription_; // of a scene that has begun to be edited
