@@ -61,7 +61,9 @@ void beginWork(Gui& gui, const app::LeftAutosave& left) {
     Recovery::Work work;
     work.left = left;
     work.claimed = std::make_shared<app::ClaimedAutosave>(std::move(*claimed));
-    work.steps = std::async(std::launch::async, [kept = work.claimed] { return app::readAutosave(*kept); });
+    work.steps = std::async(std::launch::async, [kept = work.claimed, assetsBelow = gui.assetsBelow] {
+        return app::readAutosave(*kept, assetsBelow);
+    });
     work.sceneReads = gui.state.sceneReads;
     work.sceneFailures = gui.state.sceneFailures;
     gui.recovery.work.emplace(std::move(work));

@@ -218,6 +218,39 @@ TEST_F(AddedModelsTest, AnEditIsKeptByTheNameOfTheFile) {
     EXPECT_THROW(parseStep(line, "kept"), InputError);
 }
 
+// Those of models that a model has taken in are the scene's prototypes, too.
+TEST_F(AddedModelsTest, PrototypesOfInnerModelsCanBeChanged) {
+    write("street.json", R"({"models": {"two": {"file": "models/two.obj"}},
+                             "objects": [{"type": "instance", "prototype": "two"}]})");
+    write("town.json", R"({"models": {"street": {"file": "street.json"}},
+                           "prototypes": {"own": [{"type": "instance", "prototype": "street"}]},
+                           "objects": [{"type": "instance", "prototype": "own"}]})");
+    SceneDocument document(loadSceneFile(folder_ / "town.json"));
+    ASSERT_TRUE(document.scene().prototypes.contains("street: two"));
+    document.perform("Hide", {SetHidden{{"street: two", {0}}, true}});
+    document.perform("Turn", {WrapObject{{"own", {0}}, Transform{Rotate{{0, 1, 0}, 30}}}});
+    const Json json = Json::parse(save(document.scene(), "town.json"));
+    ASSERT_EQ(json.at("changes").size(), 1u) << json;
+    EXPECT_EQ(json["changes"][0]["prototype"], "street: two");
+    expectSaved(document.scene());
+}
+
+// The model itself may lie anywhere, as when it was added; what it names may not.
+TEST_F(AddedModelsTest, ARecoveredModelReadsNothingElsewhere) {
+    write("street.json", R"({"models": {"two": {"file": "models/two.obj"}},
+                             "objects": [{"type": "instance", "prototype": "two"}]})");
+    const std::string line =
+        toText(EditStep{EditStep::Kind::Perform, "Add model", {setModel("street", "street.json")}});
+    EXPECT_NO_THROW((void)parseStep(line, "kept", (folder_ / "models").string()));
+    fs::create_directories(folder_ / "elsewhere");
+    try {
+        (void)parseStep(line, "kept", (folder_ / "elsewhere").string());
+        FAIL() << "it was read";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("--assets-below"), std::string::npos) << error.what();
+    }
+}
+
 // ---- where it is put, and how a window reads it --------------------------------------------------------------------
 
 TEST_F(AddedModelsTest, BoundsAreThoseOfAllThatIsSeen) {

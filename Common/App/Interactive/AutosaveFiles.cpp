@@ -219,12 +219,12 @@ LeftAutosaves findAutosaves(const fs::path& folder) {
     return found;
 }
 
-std::vector<scene::EditStep> readAutosave(const ClaimedAutosave& claimed) {
+std::vector<scene::EditStep> readAutosave(const ClaimedAutosave& claimed, const std::string& assetsBelow) {
     const std::vector<std::string> lines = readGuardedLines(claimed.file());
     std::vector<scene::EditStep> steps;
     for (std::size_t i = 1; i < lines.size(); ++i) {
         const TimedStep timed = timedStep(lines[i], claimed.file());
-        steps.push_back(scene::parseStep(std::string(timed.step), claimed.file().string()));
+        steps.push_back(scene::parseStep(std::string(timed.step), claimed.file().string(), assetsBelow));
     }
     return steps;
 }

@@ -72,7 +72,7 @@ struct LeftAutosaves {
 // Removes those with which nothing would be lost. Never throws.
 LeftAutosaves findAutosaves(const std::filesystem::path& folder);
 
-// Throws InputError where it is damaged, or names what is not there any more.
-std::vector<scene::EditStep> readAutosave(const ClaimedAutosave& claimed);
+// `assetsBelow`: as --assets-below. Throws InputError where it is damaged, or names what is not there any more.
+std::vector<scene::EditStep> readAutosave(const ClaimedAutosave& claimed, const std::string& assetsBelow = {});
 
 } // namespace rt::app

@@ -77,7 +77,7 @@ std::string toText(const EditStep& step) {
     return text + "]}";
 }
 
-EditStep parseStep(const std::string& line, const std::string& file) {
+EditStep parseStep(const std::string& line, const std::string& file, const std::string& assetsBelow) {
     const LargeJson json(parseJson(line, file));
     const JsonNode node(*json, file);
     node.expectKeys({"step", "name", "gesture", "edits"});
@@ -88,7 +88,7 @@ EditStep parseStep(const std::string& line, const std::string& file) {
     step.kind = static_cast<EditStep::Kind>(std::distance(kStepKinds.begin(), found));
     step.name = node.at("name").string();
     step.gesture = node.at("gesture").unsignedInteger();
-    node.at("edits").forEachElement([&](const JsonNode& edit) { step.edits.push_back(parseEdit(edit)); });
+    node.at("edits").forEachElement([&](const JsonNode& edit) { step.edits.push_back(parseEdit(edit, assetsBelow)); });
     return step;
 }
 

@@ -27,6 +27,6 @@ void appendStep(std::vector<EditStep>& steps, EditStep step, std::uint64_t seenG
 
 // One line of JSON, but for what it leaves. Throws InputError, as EditText.h says, and so does its reverse.
 std::string toText(const EditStep& step);
-EditStep parseStep(const std::string& line, const std::string& file);
+EditStep parseStep(const std::string& line, const std::string& file, const std::string& assetsBelow = {});
 
 } // namespace rt::scene

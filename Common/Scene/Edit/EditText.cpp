@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "Common/Core/ReadFile.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "Common/Scene/Json/SceneWriter.h"
 #include "Common/Scene/TextureNames.h"
@@ -187,6 +188,14 @@ class EditReader {
     const bool hasValue_;
 };
 
+// Which the user has chosen, wherever it lies; empty: the scene takes in none.
+std::string modelFileIn(const JsonNode& scene) {
+    std::string file;
+    if (const auto models = scene.find("models"))
+        models->forEachMember([&](const std::string&, const JsonNode& model) { file = model.at("file").string(); });
+    return file;
+}
+
 template <std::size_t... I>
 SceneEdit editOfKind(std::size_t kind, std::index_sequence<I...>) {
     SceneEdit edit;
@@ -213,7 +222,7 @@ std::string toText(const SceneEdit& edit) {
     return text + '}';
 }
 
-SceneEdit parseEdit(const JsonNode& node) {
+SceneEdit parseEdit(const JsonNode& node, const std::string& assetsBelow) {
     node.expectKeys({"edit", "prototype", "place", "name", "is_hidden", "scene"});
     const std::string kind = node.at("edit").string();
     const auto found = std::find(kEditNames.begin(), kEditNames.end(), std::string_view(kind));
@@ -222,7 +231,10 @@ SceneEdit parseEdit(const JsonNode& node) {
                                 std::make_index_sequence<std::variant_size_v<SceneEdit>>());
     SceneDesc alone;
     const auto scene = node.find("scene");
-    if (scene) alone = parseScene(scene->value().dump(), node.file() + ": " + scene->path(), {});
+    if (scene) {
+        const ReadsBelow confined(assetsBelow, modelFileIn(*scene));
+        alone = parseScene(scene->value().dump(), node.file() + ": " + scene->path(), {});
+    }
     std::visit(EditReader(node, std::move(alone), scene.has_value()), edit);
     return edit;
 }
