@@ -195,6 +195,29 @@ TEST_F(ImportedSceneTest, WithoutItsModelASceneIsSavedWhole) {
     expectSavedAs(model);
 }
 
+// Objects are counted: in a model that has others since, the same number may be that of another one.
+TEST_F(ImportedSceneTest, WhatMayBeOfOtherObjectsIsTold) {
+    const fs::path file = writeModel();
+    SceneDocument document(loadModelFile(file, {}));
+    document.perform("Hide", {SetHidden{{"", {1}}, true}});
+    document.perform("Hide in the group", {SetHidden{{"", {3, 1}}, true}});
+    const std::string text = save(document.scene(), file);
+    EXPECT_NE(text.find("\"chair #2 of 3\""), std::string::npos) << text;
+    EXPECT_EQ(readSaved().notices, document.scene().notices);
+    std::string other = text;
+    other.replace(other.find("#2 of 3"), 7, "#2 of 4");
+    std::ofstream(folder_ / "other.json") << other;
+    const SceneDesc read = readSaved("other.json");
+    EXPECT_TRUE(read.objects == document.scene().objects);
+    ASSERT_EQ(read.notices.size(), document.scene().notices.size() + 1);
+    EXPECT_NE(read.notices.back().find("\"chair\""), std::string::npos) << read.notices.back();
+    std::string earlier = text; // programs before wrote no number of them
+    earlier.replace(earlier.find("#2 of 3"), 7, "#2");
+    std::ofstream(folder_ / "earlier.json") << earlier;
+    EXPECT_TRUE(readSaved("earlier.json").objects == document.scene().objects);
+    EXPECT_EQ(readSaved("earlier.json").notices, document.scene().notices);
+}
+
 TEST_F(ImportedSceneTest, WhatTheModelHasNotIsNamedWithItsPlace) {
     writeModel();
     const nlohmann::json good = {{"import", {{"file", "models/model.glb"}}}, {"objects", nlohmann::json::array()}};
@@ -218,6 +241,9 @@ TEST_F(ImportedSceneTest, WhatTheModelHasNotIsNamedWithItsPlace) {
                "in a group");
     expectSaid(R"({"changes": [{"object": ["chair #1"], "becomes": []}, {"object": ["chair #1"], "becomes": []}]})",
                "/changes/1", "once before");
+    expectSaid(R"({"changes": [{"object": ["group #1"], "becomes": []},
+                               {"object": ["group #1", "oak #1"], "becomes": [{"type": "imported", "hidden": true}]}]})",
+               "/changes/1/becomes", "in a group that another change takes away");
     expectSaid(R"({"changes": [{"prototype": "sofa", "object": ["oak #1"], "becomes": []}]})", "/changes/0/prototype",
                "prototype of the model");
     expectSaid(R"({"changes": [{"object": ["point light #1"], "becomes": [{"type": "imported", "material": "oak"}]}]})",

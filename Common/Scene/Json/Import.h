@@ -15,18 +15,19 @@
 
 namespace rt::scene {
 
-// Objects of a list by what they are called and the how many-eth of that name they are, "wood #2": called by their
+// Objects of a list by what they are called and the how many-eth of that name they are, "wood #2 of 3": called by their
 // prototype or their material, else by their type. The list must not change meanwhile.
 class ObjectKeys {
   public:
     explicit ObjectKeys(const std::vector<ObjectDesc>& objects);
 
-    const std::string& key(std::size_t index) const { return keys_[index]; }
-    std::optional<std::size_t> find(const std::string& key) const;
-    std::size_t countLike(const std::string& key) const; // how many are called so
+    std::string key(std::size_t index) const;
+    std::optional<std::size_t> find(const std::string& key) const; // " of 3" may be missing, and need not be true
+    bool isOfAnotherList(const std::string& key) const;            // which has another number that are called so
+    std::size_t countLike(const std::string& key) const;           // how many are called so
 
   private:
-    std::vector<std::string> keys_;
+    std::vector<std::string> keys_; // without " of 3"
     std::unordered_map<std::string, std::size_t> places_, counts_;
 };
 

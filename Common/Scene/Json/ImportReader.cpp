@@ -3,6 +3,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -33,10 +34,16 @@ struct CalledBy {
     }
 };
 
-constexpr std::string_view kOrdinal = " #";
+constexpr std::string_view kOrdinal = " #", kTotal = " of ";
 
 std::string nameWithoutOrdinal(const std::string& key) {
     return key.substr(0, key.rfind(kOrdinal));
+}
+
+// Where " of 3" begins; npos: nowhere.
+std::size_t placeOfTotal(const std::string& key) {
+    const std::size_t ordinal = key.rfind(kOrdinal);
+    return ordinal == key.npos ? ordinal : key.find(kTotal, ordinal + kOrdinal.size());
 }
 
 } // namespace
@@ -50,9 +57,18 @@ ObjectKeys::ObjectKeys(const std::vector<ObjectDesc>& objects) {
     }
 }
 
+std::string ObjectKeys::key(std::size_t index) const {
+    return keys_[index] + std::string(kTotal) + std::to_string(countLike(keys_[index]));
+}
+
 std::optional<std::size_t> ObjectKeys::find(const std::string& key) const {
-    const auto found = places_.find(key);
+    const auto found = places_.find(key.substr(0, placeOfTotal(key)));
     return found != places_.end() ? std::optional(found->second) : std::nullopt;
+}
+
+bool ObjectKeys::isOfAnotherList(const std::string& key) const {
+    const std::size_t total = placeOfTotal(key);
+    return total != key.npos && key.substr(total + kTotal.size()) != std::to_string(countLike(key));
 }
 
 std::size_t ObjectKeys::countLike(const std::string& key) const {
@@ -180,7 +196,8 @@ ListOfModel& listToChange(const JsonNode& change, SceneDesc& scene) {
     return found->second;
 }
 
-void noteChange(const JsonNode& node, const ListOfModel& objects, ModelChange& root) {
+// `shifted`: gets what is called as it is by another number of objects now.
+void noteChange(const JsonNode& node, const ListOfModel& objects, ModelChange& root, std::set<std::string>& shifted) {
     node.expectKeys({"prototype", "object", "becomes"});
     const JsonNode names = node.at("object");
     if (names.arraySize() == 0) names.failValue("what the object is called, behind the groups that it is in");
@@ -195,6 +212,7 @@ void noteChange(const JsonNode& node, const ListOfModel& objects, ModelChange& r
             name.failValue("an object of the model, in which " +
                            std::to_string(change->keys->countLike(name.string())) + " there are called \"" +
                            nameWithoutOrdinal(name.string()) + '"');
+        if (change->keys->isOfAnotherList(name.string())) shifted.insert(nameWithoutOrdinal(name.string()));
         const auto* group = std::get_if<GroupDesc>(&(*list)[*index].shape);
         list = group != nullptr ? &group->objects : nullptr;
         std::unique_ptr<ModelChange>& inner = change->inner[*index];
@@ -203,6 +221,21 @@ void noteChange(const JsonNode& node, const ListOfModel& objects, ModelChange& r
     }
     if (change->becomes) node.fail("that object is changed once before");
     change->becomes = node.at("becomes");
+}
+
+bool keepsOriginal(const JsonNode& objects) {
+    bool keeps = false;
+    objects.forEachElement([&](const JsonNode& object) {
+        const auto inner = object.find("objects");
+        keeps = keeps || object.at("type").string() == "imported" || (inner && keepsOriginal(*inner));
+    });
+    return keeps;
+}
+
+[[noreturn]] void failInside(const ModelChange& change) {
+    const ModelChange* lost = &change;
+    while (!lost->becomes) lost = lost->inner.begin()->second.get();
+    lost->becomes->fail("of an object in a group that another change takes away");
 }
 
 void applyInside(ListOfModel& list, const ModelChange& change, const SceneReferences& references) {
@@ -219,6 +252,7 @@ void applyInside(ListOfModel& list, const ModelChange& change, const SceneRefere
         SceneReferences those = references;
         those.setOriginal(&object);
         ListOfModel becomes = readObjects(*inner->becomes, those);
+        if (!inner->inner.empty() && !keepsOriginal(*inner->becomes)) failInside(*inner->inner.begin()->second);
         if (keepsCount) {
             object = std::move(becomes.front());
             continue;
@@ -237,13 +271,17 @@ void applyInside(ListOfModel& list, const ModelChange& change, const SceneRefere
 
 void changeModel(const JsonNode& changes, const SceneReferences& references, SceneDesc& scene) {
     std::map<ListOfModel*, ModelChange> lists;
+    std::set<std::string> shifted;
     std::vector<JsonNode> nodes; // which those of what objects become point into
     nodes.reserve(changes.arraySize());
     for (std::size_t i = 0; i < changes.arraySize(); ++i) nodes.push_back(changes.element(i));
     for (const JsonNode& node : nodes) {
         ListOfModel& list = listToChange(node, scene);
-        noteChange(node, list, lists[&list]);
+        noteChange(node, list, lists[&list], shifted);
     }
+    for (const std::string& name : shifted)
+        scene.notices.push_back("the model does not have as many objects called \"" + printable(name) +
+                                "\" as when they were changed: other ones may be changed now");
     for (auto& [list, change] : lists) applyInside(*list, change, references);
 }
 
