@@ -367,7 +367,7 @@ void App::drawOtherViewports(float scale) {
             {static_cast<std::int32_t>(area.x * pixels.x), static_cast<std::int32_t>(area.y * pixels.y)},
             {static_cast<std::uint32_t>(area.width * pixels.x), static_cast<std::uint32_t>(area.height * pixels.y)}};
         otherPictures_.push_back({slot, picture_.constants(), part});
-        drawSelection(gui_, picture_.imageRect(), area);
+        drawSelectionOfOther(gui_, picture_.imageRect(), area);
         drawViewLegend(gui_, area, scale);
         drawChips(gui_, area, picture_.imageRect(), scale);
     });

@@ -10,10 +10,12 @@
 
 namespace rt::gui {
 
-inline app::ViewProjection projectionOf(const Gui& gui) {
+inline app::ViewProjection projectionOf(const Gui& gui, const scene::CameraDesc& camera) {
     const app::RenderSettings& settings = gui.state.settings;
-    const double aspect = static_cast<double>(settings.width) / std::max(1u, settings.height);
-    return {gui.camera.camera(), aspect};
+    return {camera, static_cast<double>(settings.width) / std::max(1u, settings.height)};
+}
+inline app::ViewProjection projectionOf(const Gui& gui) {
+    return projectionOf(gui, gui.camera.camera());
 }
 
 inline ImVec2 inWindow(const glm::dvec2& place, const Rect& image) {

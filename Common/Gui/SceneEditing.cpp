@@ -270,12 +270,9 @@ void drawLight(const ImVec2& at, ImDrawList& list) {
     list.AddCircleFilled(at, 2, kMark);
 }
 
-} // namespace
-
-void drawSelection(Gui& gui, const Rect& image, const Rect& area) {
-    gui.shownImage = image;
+void drawOutline(Gui& gui, const Rect& image, const Rect& area, const scene::CameraDesc& camera) {
     if (!gui.editor.selection() || !gui.state.picture.image) return;
-    const app::ViewProjection view = projectionOf(gui);
+    const app::ViewProjection view = projectionOf(gui, camera);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.PushClipRect({area.x, area.y}, {area.x + area.width, area.y + area.height});
     const app::SelectionOutline& outline = gui.editor.outline(gui.state);
@@ -286,6 +283,18 @@ void drawSelection(Gui& gui, const Rect& image, const Rect& area) {
     for (std::size_t i = 0; i < std::min(outline.lights.size(), kMostBoxes); ++i)
         if (const auto place = view.place(outline.lights[i])) drawLight(inWindow(*place, image), list);
     list.PopClipRect();
+}
+
+} // namespace
+
+void drawSelection(Gui& gui, const Rect& image, const Rect& area) {
+    gui.shownImage = image;
+    drawOutline(gui, image, area, gui.camera.camera());
+}
+
+void drawSelectionOfOther(Gui& gui, const Rect& image, const Rect& area) {
+    const app::Picture& picture = gui.state.picture;
+    if (picture.camera && picture.sceneEdits == gui.state.sceneEdits) drawOutline(gui, image, area, *picture.camera);
 }
 
 } // namespace rt::gui

@@ -86,6 +86,8 @@ void soloSelection(Gui& gui); // hides all else but what gives light
 void showAllObjects(Gui& gui);
 
 void drawSelection(Gui& gui, const Rect& image, const Rect& area); // outlined in the picture
+// In that of another viewport, which rests while the user moves what has the focus: where it shows the objects.
+void drawSelectionOfOther(Gui& gui, const Rect& image, const Rect& area);
 // Edits that lead all of the objects through the steps, of which none lies within another.
 std::vector<scene::SceneEdit> movedAll(const scene::SceneDesc& scene, const std::vector<scene::ObjectPath>& paths,
                                        const scene::Transform& steps);

@@ -92,7 +92,11 @@ TEST_F(InteractiveViewportsTest, OnlyTheFocusIsRenderedWhileTheUserMovesIt) {
     ASSERT_TRUE(reaches([&](const SessionState& s) { return move(), s.picture.serial > serial + 1; }));
     const std::uint64_t others = stateOf(second).status.samplesDone, otherPicture = stateOf(second).picture.serial;
     serial = session.state().picture.serial;
-    ASSERT_TRUE(reaches([&](const SessionState& s) { return move(), s.picture.serial > serial + 20; }));
+    const auto isSeenFromElsewhere = [&](const SessionState& s) {
+        return move(), s.picture.serial > serial + 20 && s.picture.camera != stateOf(second).picture.camera;
+    };
+    ASSERT_TRUE(reaches(isSeenFromElsewhere));
+    EXPECT_EQ(stateOf(second).picture.camera, session.state().scene->camera) << "outlines lie where it shows objects";
     EXPECT_EQ(stateOf(second).status.samplesDone, others);
     EXPECT_EQ(stateOf(second).picture.serial, otherPicture);
     session.hold(false);

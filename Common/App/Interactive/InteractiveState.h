@@ -81,6 +81,8 @@ struct Picture {
     std::uint64_t spp = 0; // of every pixel, adaptive ones in the mean; 0: partly a draft of lower resolution
     // With ViewRequest::inspect, where known: variance of each pixel's mean, and its samples in one channel.
     std::shared_ptr<const image::Image> variance, samples;
+    std::optional<scene::CameraDesc> camera{}; // that it was made with; empty: that of a race
+    std::uint64_t sceneEdits = 0;              // that its scene had, as SessionState counts
 };
 
 // The last render that ended.

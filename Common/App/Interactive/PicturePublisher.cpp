@@ -54,6 +54,7 @@ void put(const std::shared_ptr<const ViewImage>& view, Picture& picture) {
 
 void put(Picture picture, SessionState& state) {
     picture.serial = state.picture.serial + 1;
+    picture.sceneEdits = state.sceneEdits;
     state.picture = std::move(picture);
 }
 
@@ -96,6 +97,7 @@ void PicturePublisher::begin(Engine& engine) {
 
 void PicturePublisher::showDraft(const FilmRun& draft, const RenderSettings& film) {
     Picture picture;
+    picture.camera = draft.camera();
     const PictureFilter::Pointer denoised = isFiltered() ? filter_.filterDraft(draft) : nullptr;
     picture.isDenoised = picture.isLive = isDraftDenoised_ = denoised != nullptr;
     draft_ = denoised ? denoised->images.picture : draft.engine().snapshot().radiance;
@@ -122,6 +124,7 @@ void PicturePublisher::show(const FilmRun& film, FilmReference& reference, const
     Snapshot snapshot = engine.snapshot();
     auto radiance = std::make_shared<image::Image>(std::move(snapshot.radiance));
     Picture picture;
+    picture.camera = film.camera();
     picture.spp = snapshot.minSamples();
     if (picture.spp > 0 && isAdaptive(film.settings())) picture.spp = film.status().samplesDone / film.pixels();
     if (picture.spp == 0 && hasDraft()) showDraftAround(snapshot.tileSamples, *radiance, picture);
@@ -306,6 +309,7 @@ void PicturePublisher::showPreview(Engine& engine, const scene::CameraDesc& came
                                    std::uint32_t width) {
     preview_ = drawPreview(engine, camera, size, width);
     Picture picture;
+    picture.camera = camera;
     picture.image = picture.radiance = picture.subject = std::make_shared<image::Image>(preview_.picture);
     picture.isPreview = true;
     const EngineReport report = engine.report();
