@@ -132,7 +132,8 @@ void drawFirstSteps(Gui& gui, const Rect& area) {
     if (gui.viewportCount() > 1) return; // each of which is too narrow for them
     constexpr const char* kSteps[] = {"1  Press F3 and run the other engine: who is faster?",
                                       "2  Set Light sampling to Off: what aiming at lamps is worth",
-                                      "3  Press N: the same picture, not denoised"};
+                                      "3  Press N: the same picture, not denoised",
+                                      "4  Click a ball: move it, make it of gold, add a light"};
     const float em = ImGui::GetFontSize(), padding = ImGui::GetStyle().WindowPadding.x;
     const float margin = std::min(em, 0.05f * area.width), room = std::max(1.0f, area.width - 2 * (margin + padding));
     float longest = 1;
@@ -146,7 +147,7 @@ void drawFirstSteps(Gui& gui, const Rect& area) {
     if (ImGui::Begin("##first-steps", nullptr, kFlags)) {
         ImGui::SetWindowFontScale(std::clamp(room / longest, kMinLetters, 1.0f)); // as in the help
         ImGui::PushTextWrapPos(padding + room);
-        ImGui::TextDisabled("Three steps");
+        ImGui::TextDisabled("Four steps");
         for (const char* step : kSteps) ImGui::TextUnformatted(step);
         ImGui::PopTextWrapPos();
         if (ImGui::Button("Got it")) gui.showFirstSteps = false;

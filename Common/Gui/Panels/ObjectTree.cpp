@@ -14,6 +14,7 @@ namespace rt::gui {
 namespace {
 
 constexpr std::size_t kFewLines = 3, kManyLines = 7; // of the list's height
+constexpr float kListShare = 0.35f;                  // of the panels' height at most: what is selected is seen below
 
 // Anew only when it would be another one.
 void refreshList(Gui& gui) {
@@ -110,8 +111,11 @@ void drawObjectTree(Gui& gui) {
         showAllObjects(gui);
     if (editing.revealsSelection && gui.editor.selection()) openAround(editing, *gui.editor.selection());
     refreshList(gui);
-    const auto lines = static_cast<float>(std::clamp(editing.list.size() + 1, kFewLines, kManyLines));
-    if (ImGui::BeginChild("##tree", {0, lines * ImGui::GetFrameHeightWithSpacing()}, true)) {
+    const float line = ImGui::GetFrameHeightWithSpacing();
+    const auto fitting = static_cast<std::size_t>(std::max(0.0f, kListShare * ImGui::GetWindowHeight() / line));
+    const std::size_t most = std::clamp(fitting, kFewLines, kManyLines);
+    const auto lines = static_cast<float>(std::clamp(editing.list.size() + 1, kFewLines, most));
+    if (ImGui::BeginChild("##tree", {0, lines * line}, true)) {
         const float height = ImGui::GetTextLineHeightWithSpacing();
         if (std::exchange(editing.revealsSelection, false) && gui.editor.selection()) {
             const std::size_t row = editing.list.find(*gui.editor.selection());

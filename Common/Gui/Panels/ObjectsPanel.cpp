@@ -78,6 +78,12 @@ void drawAddMenu(Gui& gui) {
     if (ImGui::MenuItem("Quad"))
         addSurface(gui, "quad", scene::QuadDesc{middle - x + z, 2.0 * x, -2.0 * z, "", true}, false);
     if (ImGui::MenuItem("Disk")) addSurface(gui, "disk", scene::DiskDesc{middle, {0, 1, 0}, size, 0, "", true}, false);
+    if (ImGui::MenuItem("Medium")) {
+        scene::MediumDesc medium;
+        medium.boundary = scene::SphereBoundary{middle, 2 * size};
+        medium.density = 0.5 / size;
+        addObject(gui, "medium", medium, {});
+    }
     ImGui::Separator();
     const glm::dvec3 bright(10 * size * size); // 10 at a distance of its size
     if (ImGui::MenuItem("Area light"))
@@ -90,12 +96,6 @@ void drawAddMenu(Gui& gui) {
     if (ImGui::MenuItem("Sun and sky"))
         editScene(gui, "Sun and sky", {scene::SetBackground{scene::SunSkyBackground{}}}, false);
     tooltip("In place of the sky that there is");
-    if (ImGui::MenuItem("Medium")) {
-        scene::MediumDesc medium;
-        medium.boundary = scene::SphereBoundary{middle, 2 * size};
-        medium.density = 0.5 / size;
-        addObject(gui, "medium", medium, {});
-    }
     ImGui::Separator();
     if (ImGui::MenuItem("Model...")) gui.browse(BrowseFor::Model);
     tooltip("What a file of glTF, OBJ or pbrt, or a scene file shows, as one object; also by a drop onto this panel");
