@@ -242,7 +242,7 @@ TEST_F(ImportedSceneTest, WhatTheModelHasNotIsNamedWithItsPlace) {
     expectSaid(R"({"changes": [{"object": ["chair #1"], "becomes": []}, {"object": ["chair #1"], "becomes": []}]})",
                "/changes/1", "once before");
     expectSaid(R"({"changes": [{"object": ["group #1"], "becomes": []},
-                               {"object": ["group #1", "oak #1"], "becomes": [{"type": "imported", "hidden": true}]}]})",
+                               {"object": ["group #1", "oak #1"], "becomes": []}]})",
                "/changes/1/becomes", "in a group that another change takes away");
     expectSaid(R"({"changes": [{"prototype": "sofa", "object": ["oak #1"], "becomes": []}]})", "/changes/0/prototype",
                "prototype of the model");

@@ -216,8 +216,8 @@ void SceneLoader::forgetDescription() {
     doneEdits_.clear();
 }
 
-// Compiles what is shown, to know its surfaces by the meshes of the description. The memory has the scene that there is:
-// another one like it would be of no use.
+// Compiles what is shown, to know its surfaces by the meshes of the description. The memory keeps the scene that there
+// is: another one like it would be of no use.
 void SceneLoader::prepareEdits(const SceneRequest& request, const std::weak_ptr<const scene::CompiledScene>& shown) {
     const Interruptible interruptible(callOff_);
     try {
