@@ -97,6 +97,19 @@ TEST_P(AddedFilesTest, AModelThatIsDroppedOnThePanelIsAdded) {
     expectCleanEnd();
 }
 
+TEST_P(AddedFilesTest, SunAndSkyIsAddedByTheMenu) {
+    startWithBall();
+    ASSERT_FALSE(HasFatalFailure());
+    ASSERT_TRUE(clickText("Add", kSidePlace, [this] { return isShown("Sun and sky"); })) << log();
+    ASSERT_TRUE(clickText("Sun and sky", [this] { return isMarkedUnsaved(); })) << log();
+    save([this] { return saved().is_object() && saved()["background"]["type"] == "sun_sky"; });
+    EXPECT_EQ(saved()["background"]["sun_elevation"], 40);
+    key("ctrl+z");
+    ASSERT_TRUE(eventually([this] { return isMarkedUnsaved(); }, kSeen)) << log();
+    save([this] { return saved().is_object() && saved()["background"]["type"] == "gradient"; });
+    expectCleanEnd();
+}
+
 TEST_P(AddedFilesTest, AnImageIsTheSkyOrAColorByWhereItIsDropped) {
     startWithBall();
     ASSERT_FALSE(HasFatalFailure());

@@ -12,8 +12,8 @@ namespace {
 // What objects, materials and lights that the window can add need, by one kernel: a software driver compiles for
 // seconds.
 constexpr const char* kWhatEditsNeed =
-    "textures,spheres,quads,triangles,instances,emissive,volumes,sky,lights,many-lights,sphere-lights,quad-lights,"
-    "triangle-lights,punctual-lights,disks,disk-lights,lambertian,metal,dielectric,principled,fuzz,opacity";
+    "textures,spheres,quads,triangles,instances,emissive,volumes,sky,sky-image,lights,many-lights,sphere-lights,"
+    "quad-lights,triangle-lights,punctual-lights,disks,disk-lights,lambertian,metal,dielectric,principled,fuzz,opacity";
 
 class NightlyRandomEditsTest : public WindowTest {
   protected:
