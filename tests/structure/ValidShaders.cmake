@@ -1,5 +1,11 @@
-# Fails unless every shader of the build is valid SPIR-V: cmake -DSPIRV_VAL=... -DFOLDER=... -P ValidShaders.cmake
+# Fails unless shaders of the build are valid SPIR-V: cmake -DSPIRV_VAL=... -DWHICH=... -DFOLDER=... -P ValidShaders.cmake
+# WHICH: Kernels trace paths, Shaders are all others.
 file(GLOB shaders ${FOLDER}/*.spv)
+set(filter EXCLUDE)
+if(WHICH STREQUAL "Kernels")
+    set(filter INCLUDE)
+endif()
+list(FILTER shaders ${filter} REGEX "/PathTrace[^/]*\\.spv$")
 list(LENGTH shaders count)
 if(count EQUAL 0)
     message(FATAL_ERROR "no shader in ${FOLDER}")
