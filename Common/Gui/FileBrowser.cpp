@@ -149,7 +149,7 @@ void FileBrowser::drawPlaces(const std::vector<std::string>& recent, std::option
     };
     place("Home", homeFolder());
     place("Pictures", homeFolder() / "Pictures");
-    if (const auto assets = assetFolders(); !assets.empty()) place("Examples", assets.front() / "scenes");
+    if (const auto assets = assetFolders(); !assets.empty()) place("Examples", assets.front() / "examples");
     place("This folder", fs::current_path());
     place("Computer", folder_.root_path());
     if (recent.empty() || request_.isToSave) return;

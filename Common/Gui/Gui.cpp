@@ -251,8 +251,10 @@ void Gui::browse(BrowseFor what) {
                        ""};
             if (fs::is_regular_file(state.source, none)) {
                 request.folder = folderOf(state.source);
+            } else if (!settings.recent.empty() && fs::is_regular_file(settings.recent.front(), none)) {
+                request.folder = folderOf(settings.recent.front());
             } else if (const auto assets = assetFolders(); !assets.empty()) {
-                request.folder = assets.front() / "scenes";
+                request.folder = assets.front() / "examples";
             }
             break;
         case BrowseFor::Image:

@@ -85,8 +85,9 @@ struct Tracer {
             const bool isFront = dot(wo, surface.normal) > 0;
             const vec3 normal = isFront ? surface.normal : -surface.normal;
             const vec2 u = numbers.next();
+            const float uLobe = numbers.next().x; // chooses among the lobes of materials that have several
             const shared::BsdfSample next =
-                shared::sampleBsdf(scene.features, bsdf, normal, isFront ? 1u : 0u, wo, u, u.x);
+                shared::sampleBsdf(scene.features, bsdf, normal, isFront ? 1u : 0u, wo, u, uLobe);
             throughput *= next.weight;
             if (throughput == vec3(0.0f)) break; // absorbed
             ray.origin = shared::offsetOrigin(surface.position, surface.error, normal, next.wi);
