@@ -119,6 +119,16 @@ TEST(SceneJson, BackgroundImagesSurviveARoundTrip) {
     EXPECT_NE(errorOf(document.dump()).find("/background/rotation: \"east\": must be a number"), std::string::npos);
 }
 
+TEST(SceneJson, TheSchemaKnowsSunAndSky) {
+    Json document = everything();
+    document["background"] = {{"type", "sun_sky"}, {"sun_elevation", 20},       {"sun_azimuth", -3},
+                              {"turbidity", 5},    {"ground", {0.1, 0.2, 0.3}}, {"factor", {2, 2, 2}}};
+    EXPECT_TRUE(schema().accepts(document));
+    EXPECT_TRUE(schema().accepts(Json::parse(toJson(parse(document.dump())))));
+    document["background"]["sun_elevation"] = 91;
+    EXPECT_FALSE(schema().accepts(document));
+}
+
 TEST(SceneJson, NumbersSurviveToTheLastBit) {
     std::mt19937_64 random(1);
     SceneDesc scene = findBuiltinScene("furnace");

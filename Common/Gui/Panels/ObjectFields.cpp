@@ -236,10 +236,7 @@ bool drawSunSky(scene::SunSkyBackground& sky) {
     changed |= sliderReal("Turbidity", "Haze of the air: 2 is very clear, 3 a fine day, 10 milky", sky.turbidity,
                           scene::kLeastTurbidity, scene::kMostTurbidity, "%.2f");
     changed |= inputLight("Strength", "Sun and sky are so many times as bright as the world's", sky.factor);
-    ImGui::PushID("ground");
-    changed |= inputColor("Ground", "What the ground below the horizon reflects of both", sky.ground);
-    ImGui::PopID();
-    return changed;
+    return inputColor("Ground", "What the ground below the horizon reflects of both", sky.ground) || changed;
 }
 
 } // namespace
