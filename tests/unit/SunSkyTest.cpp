@@ -19,8 +19,10 @@ namespace {
 
 using glm::dvec3;
 
-SceneDesc withSky(const std::string& more) {
-    return parseScene(R"({"background": {"type": "sun_sky")" + more + R"(}, "objects": []})", "sky.json", ".");
+SceneDesc withSky(const std::string& more, const std::string& objects = "") {
+    const std::string begin = R"({"materials": {"white": {"type": "lambertian", "albedo": [1, 1, 1]}},
+        "background": {"type": "sun_sky")";
+    return parseScene(begin + more + R"(}, "objects": [)" + objects + "]}", "sky.json", ".");
 }
 
 TEST(SunSky, TheSunStandsWhereACompassSays) {
@@ -82,7 +84,9 @@ TEST(SunSky, WhatItCannotBeIsNamed) {
 using SunSkyGltf = WrittenGltf;
 
 TEST_F(SunSkyGltf, HasTheSunAsALight) {
-    SceneDesc scene = withSky(R"(, "sun_elevation": 30, "factor": [2, 2, 2])");
+    SceneDesc scene = withSky(R"(, "sun_elevation": 30, "factor": [2, 2, 2])",
+                              R"({"type": "quad", "corner": [0, 0, 0], "edge_u": [1, 0, 0], "edge_v": [0, 0, 1],
+                                  "material": "white"})");
     const SceneDesc read = again(scene, "sun.glb");
     EXPECT_TRUE(isNoticed("the sky but for its sun"));
     const auto& sky = std::get<SunSkyBackground>(scene.background);
