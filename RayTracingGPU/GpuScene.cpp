@@ -1,22 +1,35 @@
 #include "RayTracingGPU/GpuScene.h"
 
+#include <cstddef>
 #include <cstring>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 
 #include "Common/Accel/SameGeometry.h"
 #include "Common/Render/Stopwatch.h"
+#include "Common/Vulkan/Barrier.h"
 #include "RayTracingGPU/EngineChoice.h"
 
 namespace rt::gpu {
 
-template <class T>
-std::uint64_t GpuScene::addToTree(vulkan::VulkanContext& context, const std::vector<T>& data, const char* name) {
-    if (data.empty()) return 0;
-    treeBuffers_.push_back(std::make_shared<const vulkan::Buffer>(vulkan::deviceArray<T>(context, data, name)));
-    return treeBuffers_.back()->address();
+namespace {
+
+// The first bytes of another buffer, then the data.
+vulkan::Buffer extended(vulkan::VulkanContext& context, const vulkan::Buffer& first, VkDeviceSize bytes,
+                        std::span<const std::byte> data, const char* name) {
+    vulkan::Buffer buffer(context.memory(), bytes + data.size(), 0, vulkan::Memory::Device, name);
+    context.run([&](VkCommandBuffer commands) {
+        const VkBufferCopy region{0, 0, bytes};
+        vkCmdCopyBuffer(commands, first.get(), buffer.get(), 1, &region);
+        vulkan::barrier(commands, vulkan::kTransferWrite, vulkan::kTransferWrite | context.bufferUses());
+    });
+    vulkan::upload(context, buffer, data, bytes);
+    return buffer;
 }
+
+} // namespace
 
 GpuScene::GpuScene(vulkan::VulkanContext& context, app::GpuEngineKind engine,
                    std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel,
@@ -34,7 +47,9 @@ GpuScene::GpuScene(vulkan::VulkanContext& context, app::GpuEngineKind engine,
     } else if (before != nullptr && accel::sameInput(accel::inputOf(*before->compiled_), accel::inputOf(*compiled_))) {
         takeTree(*before);
     } else {
-        buildTree(context, cancel);
+        const bool keeps = before != nullptr && accel::canKeep(before->placed_, accel::inputOf(*before->compiled_),
+                                                               accel::inputOf(*compiled_));
+        buildTree(context, cancel, keeps ? before : nullptr);
     }
 }
 
@@ -60,29 +75,52 @@ void GpuScene::uploadArrays(vulkan::VulkanContext& context, VkBufferUsageFlags u
 
 void GpuScene::takeTree(const GpuScene& from) {
     treeBuffers_ = from.treeBuffers_;
+    treeRest_ = from.treeRest_;
     tree_ = from.tree_;
     linearLists_ = from.linearLists_;
     shape_ = from.shape_;
+    placed_ = from.placed_;
 }
 
-void GpuScene::buildTree(vulkan::VulkanContext& context, const std::atomic<bool>* cancel) {
+void GpuScene::buildTree(vulkan::VulkanContext& context, const std::atomic<bool>* cancel, const GpuScene* before) {
     const app::Stopwatch watch;
     const accel::AccelInput input = accel::inputOf(*compiled_);
-    const std::optional<accel::GpuBvh> bvh = accel::buildGpuBvh(input, {}, cancel);
+    std::optional<accel::GpuBvh> bvh =
+        accel::buildGpuBvh(input, {}, cancel, before != nullptr ? &before->placed_ : nullptr);
     if (!bvh) return;
     buildSeconds_ = watch.seconds();
     shape_ = traversalShape(*bvh);
     const accel::GpuTrees& t = bvh->trees;
-    tree_.nodes = addToTree(context, t.nodes, "the tree");
-    tree_.wideNodes = addToTree(context, t.wideNodes, "the tree");
-    tree_.spheres = addToTree(context, t.spheres, "the tree's spheres");
-    tree_.sphereMotions = addToTree(context, t.sphereMotions, "the tree's motion");
-    tree_.sphereIndices = addToTree(context, t.sphereIndices, "the tree's spheres");
-    tree_.quads = addToTree(context, t.quads, "the tree's quads");
-    tree_.triangles = addToTree(context, t.triangles, "the tree's triangles");
-    tree_.rounds = addToTree(context, t.rounds, "the tree's disks and cylinders");
-    tree_.instanceRoots = addToTree(context, t.instanceRoots, "the tree's instances");
+    // Behind the `kept` first elements of the scene before.
+    const auto add = [&](const auto& records, std::size_t kept, const char* name) -> std::uint64_t {
+        using Record = typename std::decay_t<decltype(records)>::value_type;
+        const std::size_t place = treeBuffers_.size();
+        SharedBuffer& buffer = treeBuffers_.emplace_back();
+        const VkDeviceSize keptBytes = before != nullptr ? kept * sizeof(Record) : 0;
+        if (keptBytes == 0) {
+            if (records.empty()) return 0;
+            buffer = std::make_shared<const vulkan::Buffer>(vulkan::deviceArray<Record>(context, records, name));
+        } else if (const SharedBuffer& old = before->treeBuffers_[place];
+                   records.empty() && old->bytes() == keptBytes) {
+            buffer = old;
+        } else {
+            buffer = std::make_shared<const vulkan::Buffer>(
+                extended(context, *old, keptBytes, std::as_bytes(std::span(records)), name));
+        }
+        return buffer->address();
+    };
+    const accel::TreeCounts& kept = t.placed.counts;
+    tree_.nodes = add(t.nodes, t.isWide ? 0 : kept.nodes, "the tree");
+    tree_.wideNodes = add(t.wideNodes, t.isWide ? kept.nodes : 0, "the tree");
+    tree_.spheres = add(t.spheres, kept.spheres, "the tree's spheres");
+    tree_.sphereMotions = add(t.sphereMotions, input.motions.empty() ? 0 : kept.spheres, "the tree's motion");
+    tree_.sphereIndices = add(t.sphereIndices, kept.spheres, "the tree's spheres");
+    tree_.quads = add(t.quads, kept.quads, "the tree's quads");
+    tree_.triangles = add(t.triangles, kept.triangles, "the tree's triangles");
+    tree_.rounds = add(t.rounds, kept.rounds, "the tree's disks and cylinders");
+    tree_.instanceRoots = add(t.instanceRoots, 0, "the tree's instances");
     tree_.root = t.root;
+    placed_ = std::move(bvh->trees.placed);
 
     std::vector<shared::vec4> lists = bvh->lists.vectors;
     lists.resize(shared::kListVectors);
@@ -96,8 +134,10 @@ void GpuScene::provideMotion(vulkan::VulkanContext& context) {
     rest_ = vulkan::deviceArray<shared::vec3>(context, rest, "motion");
     arrays_.sphereMotions = rest_.address();
     if (tree_.spheres == 0 || tree_.sphereMotions != 0) return;
-    tree_.sphereMotions =
-        addToTree(context, std::vector<shared::vec4>(rest.size(), shared::vec4(0.0f)), "the tree's motion");
+    const std::vector<shared::vec4> none(rest.size(), shared::vec4(0.0f));
+    treeRest_ =
+        std::make_shared<const vulkan::Buffer>(vulkan::deviceArray<shared::vec4>(context, none, "the tree's motion"));
+    tree_.sphereMotions = treeRest_->address();
 }
 
 } // namespace rt::gpu

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 
+#include "Common/Accel/GpuBvh.h"
 #include "Common/Render/Names.h"
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Vulkan/StagingRing.h"
@@ -39,15 +40,16 @@ class GpuScene {
   private:
     using SharedBuffer = std::shared_ptr<const vulkan::Buffer>; // with other versions of the scene
     void uploadArrays(vulkan::VulkanContext& context, VkBufferUsageFlags usage, const GpuScene* before);
-    void buildTree(vulkan::VulkanContext& context, const std::atomic<bool>* cancel);
+    // `before`: a scene whose trees but for the world's are this one's, or null.
+    void buildTree(vulkan::VulkanContext& context, const std::atomic<bool>* cancel, const GpuScene* before);
     void takeTree(const GpuScene& from);
-    template <class T>
-    std::uint64_t addToTree(vulkan::VulkanContext& context, const std::vector<T>& data, const char* name);
 
     std::shared_ptr<const scene::CompiledScene> compiled_;
     std::vector<SharedBuffer> arrayBuffers_; // of each array; null where that is empty
-    std::vector<SharedBuffer> treeBuffers_;
-    vulkan::Buffer rest_; // of spheres: motion that is none
+    std::vector<SharedBuffer> treeBuffers_;  // likewise of the tree's
+    accel::PlacedTrees placed_;
+    vulkan::Buffer rest_;   // of spheres: motion that is none
+    SharedBuffer treeRest_; // likewise of the tree's
     shared::SceneArrays arrays_{};
     shared::TreeArrays tree_{};
     std::unique_ptr<AccelStructure> accel_;

@@ -11,6 +11,7 @@
 #include "Common/Accel/Build/Collapse.h"
 #include "Common/Accel/Build/SceneTrees.h"
 #include "Common/Accel/Cuboids.h"
+#include "Common/Accel/SameGeometry.h"
 #include "Common/Core/Error.h"
 #include "Common/Shared/Shape/Rounds.h"
 #include "Common/Shared/Shape/Shapes.h"
@@ -156,12 +157,25 @@ bool prefersWideNodes(const AccelInput& input) {
 
 class Flattener {
   public:
-    explicit Flattener(const AccelInput& input)
-        : input_(input), roots_(input.geometries.size(), 0), depths_(input.geometries.size(), 0) {
-        trees_.isWide = prefersWideNodes(input);
+    // Behind the trees that are there, if any.
+    Flattener(const AccelInput& input, const PlacedTrees* there) : input_(input) {
+        PlacedTrees& placed = trees_.placed;
+        if (there != nullptr) {
+            placed = *there;
+        } else {
+            placed.isWide = prefersWideNodes(input);
+            placed.roots.resize(input.geometries.size(), 0);
+            placed.depths.resize(input.geometries.size(), 0);
+        }
+        base_ = placed.counts;
+        trees_.isWide = placed.isWide;
+        roots_ = placed.roots;
+        depths_ = placed.depths;
     }
 
     void add(const SceneTree& tree);
+    void finishPlaced(std::vector<Box> boxes); // of all that was added, the world being next
+    const PlacedTrees& placed() const { return trees_.placed; }
     GpuTrees finish();
 
   private:
@@ -172,6 +186,7 @@ class Flattener {
 
     const AccelInput& input_;
     GpuTrees trees_;
+    TreeCounts base_;                   // of what is there already
     std::vector<std::uint32_t> roots_;  // of each geometry
     std::vector<std::uint32_t> depths_; // of each geometry: references that a traversal of it has to remember
 };
@@ -186,19 +201,19 @@ void checkRoom(std::size_t items) {
 // A leaf's primitives become neighbours in the array of their kind.
 std::uint32_t Flattener::addLeaf(const SceneTree& tree, const BvhNode& leaf) {
     const std::span<const std::uint32_t> items = std::span(tree.bvh.items).subspan(leaf.first, leaf.count);
-    const auto append = [&](std::uint32_t kind, auto& array, const auto& make) {
-        const std::size_t first = array.size();
+    const auto append = [&](std::uint32_t kind, std::size_t base, auto& array, const auto& make) {
+        const std::size_t first = base + array.size();
         for (const std::uint32_t item : items) array.push_back(make(input_, tree.items.index(item)));
-        checkRoom(array.size());
+        checkRoom(base + array.size());
         return shared::treeLeaf(kind, static_cast<std::uint32_t>(first), leaf.count);
     };
     switch (tree.items.kind(items[0])) {
         case LeafKind::Quad:
-            return append(shared::kQuad, trees_.quads, quadRecord);
+            return append(shared::kQuad, base_.quads, trees_.quads, quadRecord);
         case LeafKind::Triangle:
-            return append(shared::kTriangle, trees_.triangles, triangleRecord);
+            return append(shared::kTriangle, base_.triangles, trees_.triangles, triangleRecord);
         case LeafKind::Round: {
-            const std::uint32_t all = append(shared::kRound, trees_.rounds, roundRecord);
+            const std::uint32_t all = append(shared::kRound, base_.rounds, trees_.rounds, roundRecord);
             return shared::roundLeaf(shared::treeLeafFirst(all), leaf.count);
         }
         case LeafKind::Instance:
@@ -208,9 +223,10 @@ std::uint32_t Flattener::addLeaf(const SceneTree& tree, const BvhNode& leaf) {
         case LeafKind::MovingSphere:
             break;
     }
-    if (!input_.motions.empty()) append(shared::kSphere, trees_.sphereMotions, motionVector);
-    append(shared::kSphere, trees_.sphereIndices, [](const AccelInput&, std::uint32_t index) { return index; });
-    return append(shared::kSphere, trees_.spheres, sphereVector);
+    if (!input_.motions.empty()) append(shared::kSphere, base_.spheres, trees_.sphereMotions, motionVector);
+    append(shared::kSphere, base_.spheres, trees_.sphereIndices,
+           [](const AccelInput&, std::uint32_t index) { return index; });
+    return append(shared::kSphere, base_.spheres, trees_.spheres, sphereVector);
 }
 
 // The middle, rounded, and how far a box reaches from that, with what the shaders' test loses of it. No ray enters an
@@ -255,7 +271,7 @@ template <class Node, class Children>
 void Flattener::addNodes(const SceneTree& tree, std::vector<Node>& nodes, const Children& childrenOf) {
     const std::vector<BvhNode>& binary = tree.bvh.nodes;
     std::uint32_t& depth = depths_[tree.geometry];
-    roots_[tree.geometry] = static_cast<std::uint32_t>(nodes.size());
+    roots_[tree.geometry] = static_cast<std::uint32_t>(base_.nodes + nodes.size());
     struct Open {
         std::uint32_t binary, parent;
         int child;
@@ -266,9 +282,9 @@ void Flattener::addNodes(const SceneTree& tree, std::vector<Node>& nodes, const 
         const Open next = open.back();
         open.pop_back();
         const BvhNode& node = binary[next.binary];
-        const auto index = static_cast<std::uint32_t>(nodes.size());
+        const auto index = static_cast<std::uint32_t>(base_.nodes + nodes.size());
         const std::uint32_t reference = node.isLeaf() ? addLeaf(tree, node) : index;
-        if (next.binary != 0) nodes[next.parent].children[next.child] = reference;
+        if (next.binary != 0) nodes[next.parent - base_.nodes].children[next.child] = reference;
         if (node.isLeaf()) {
             depth = std::max(depth, next.above + depthBelow(tree, node));
             continue;
@@ -300,6 +316,15 @@ void Flattener::add(const SceneTree& tree) {
     }
 }
 
+void Flattener::finishPlaced(std::vector<Box> boxes) {
+    PlacedTrees& placed = trees_.placed;
+    placed.counts = {trees_.nodes.size() + trees_.wideNodes.size(), trees_.spheres.size(), trees_.quads.size(),
+                     trees_.triangles.size(), trees_.rounds.size()};
+    placed.roots = roots_;
+    placed.depths = depths_;
+    placed.boxes = std::move(boxes);
+}
+
 GpuTrees Flattener::finish() {
     checkRoom(input_.instances.size());
     for (const shared::Instance& instance : input_.instances) trees_.instanceRoots.push_back(roots_[instance.geometry]);
@@ -317,7 +342,7 @@ GpuBvhSettings::GpuBvhSettings() : maxLinear(48) {
 }
 
 std::optional<GpuBvh> buildGpuBvh(const AccelInput& input, const GpuBvhSettings& settings,
-                                  const std::atomic<bool>* cancel) {
+                                  const std::atomic<bool>* cancel, const PlacedTrees* placed) {
     GpuBvh bvh;
     const shared::Geometry& world = input.geometries[0];
     const std::uint64_t primitives =
@@ -331,16 +356,26 @@ std::optional<GpuBvh> buildGpuBvh(const AccelInput& input, const GpuBvhSettings&
     BvhSettings tree = settings.tree;
     tree.maxLeafSize =
         std::min(tree.maxLeafSize, input.rounds.empty() ? shared::kTreeLeafSize : shared::kMaxRoundsOfLeaf);
-    Flattener flattener(input);
+    Flattener flattener(input, placed);
     bool hasWorld = false;
     const auto add = [&](const SceneTree& built) {
         flattener.add(built);
         hasWorld = hasWorld || built.geometry == 0;
     };
-    if (!buildSceneTrees(input, tree, cancel, nullptr, add)) return std::nullopt;
+    if (placed == nullptr) {
+        std::optional<std::vector<Box>> boxes = buildPlacedTrees(input, tree, cancel, nullptr, add);
+        if (!boxes) return std::nullopt;
+        flattener.finishPlaced(std::move(*boxes));
+    }
+    if (!buildWorldTree(input, flattener.placed().boxes, tree, cancel, nullptr, add)) return std::nullopt;
     bvh.trees = flattener.finish();
     bvh.isLinear = !hasWorld; // instances may all be of empty geometries
     return bvh;
+}
+
+bool canKeep(const PlacedTrees& placed, const AccelInput& before, const AccelInput& now) {
+    return !now.instances.empty() && placed.roots.size() == now.geometries.size() &&
+           placed.isWide == prefersWideNodes(now) && samePlacedGeometries(before, now);
 }
 
 } // namespace rt::accel

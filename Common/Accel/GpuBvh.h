@@ -3,17 +3,37 @@
 #pragma once
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "Common/Accel/AccelInput.h"
+#include "Common/Accel/Box.h"
 #include "Common/Accel/Build/BvhBuilder.h"
 #include "Common/Shared/Shape/TreeRecords.h"
 
 namespace rt::accel {
 
-// The trees of all geometries, appended to the same arrays.
+// Elements of the arrays of trees.
+struct TreeCounts {
+    std::size_t nodes = 0; // of either kind
+    std::size_t spheres = 0;
+    std::size_t quads = 0;
+    std::size_t triangles = 0;
+    std::size_t rounds = 0;
+};
+
+// The trees of all geometries but the world's, and what the world's has to know of them.
+struct PlacedTrees {
+    bool isWide = false;
+    TreeCounts counts;                 // they are the first of the arrays
+    std::vector<std::uint32_t> roots;  // of each geometry
+    std::vector<std::uint32_t> depths; // of each geometry: references that a traversal of it has to remember
+    std::vector<Box> boxes;            // of each geometry
+};
+
+// The trees of all geometries, appended to the same arrays, the world's last.
 struct GpuTrees {
     bool isWide = false; // wideNodes instead of nodes
     std::vector<shared::TreeNode> nodes;
@@ -27,6 +47,7 @@ struct GpuTrees {
     std::vector<std::uint32_t> instanceRoots; // of each instance's geometry; meaningless for an empty one
     std::uint32_t root = 0;                   // the world's
     std::uint32_t depth = 0;                  // most references that a traversal has to remember
+    PlacedTrees placed;
 };
 
 // The primitives of a scene without instances, not sorted at all.
@@ -53,8 +74,11 @@ struct GpuBvhSettings {
 };
 
 // Nothing when *cancel became true. Throws RenderError when there are more primitives of a kind than references can
-// name.
+// name. `placed`: trees that are there already; the arrays then hold what goes behind theirs.
 std::optional<GpuBvh> buildGpuBvh(const AccelInput& input, const GpuBvhSettings& settings = {},
-                                  const std::atomic<bool>* cancel = nullptr);
+                                  const std::atomic<bool>* cancel = nullptr, const PlacedTrees* placed = nullptr);
+
+// Whether those of a scene `before` are those of another version of it.
+bool canKeep(const PlacedTrees& placed, const AccelInput& before, const AccelInput& now);
 
 } // namespace rt::accel

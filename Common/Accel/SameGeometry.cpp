@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <vector>
 
+#include "Common/Accel/Build/TreeItems.h"
 #include "Common/Core/Parallel.h"
 
 namespace rt::accel {
@@ -20,6 +22,13 @@ bool sameTriangle(const AccelInput& a, shared::uvec3 ofA, const AccelInput& b, s
     for (int corner = 0; corner < 3; ++corner)
         if (!sameBytes(a.positions[ofA[corner]], b.positions[ofB[corner]])) return false;
     return true;
+}
+
+// Of each geometry whether an instance places it.
+std::vector<bool> placedGeometries(const AccelInput& input) {
+    std::vector<bool> placed(input.geometries.size(), false);
+    for (const shared::Instance& instance : input.instances) placed[instance.geometry] = true;
+    return placed;
 }
 
 } // namespace
@@ -70,6 +79,19 @@ bool sameInstances(const AccelInput& a, const AccelInput& b) {
         return ofA.geometry == ofB.geometry && sameBytes(ofA.toWorld, ofB.toWorld);
     };
     return std::equal(a.instances.begin(), a.instances.end(), b.instances.begin(), b.instances.end(), isSame);
+}
+
+bool samePlacedGeometries(const AccelInput& a, const AccelInput& b) {
+    if (a.geometries.size() != b.geometries.size() || a.motions.empty() != b.motions.empty()) return false;
+    if (placedGeometries(a) != placedGeometries(b)) return false;
+    for (std::uint32_t g = 1; g < a.geometries.size(); ++g) {
+        const shared::Geometry& geometry = a.geometries[g];
+        if (!sameBytes(geometry, b.geometries[g])) return false;
+        if (!sameSurfaces(a, b, g) || !sameSpheres(a, b, g) || !sameRounds(a, b, g)) return false;
+        for (std::uint32_t i = geometry.firstSphere; i < geometry.firstSphere + geometry.sphereCount; ++i)
+            if (sphereKind(a, i) != sphereKind(b, i)) return false;
+    }
+    return true;
 }
 
 bool sameInput(const AccelInput& a, const AccelInput& b) {

@@ -20,6 +20,10 @@ bool sameArray(std::span<const T> a, std::span<const T> b) { // to the byte
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
+// Whether all geometries that instances place are the same and stand where they stood in the arrays. What is in the
+// world, and where instances are, does not count.
+bool samePlacedGeometries(const AccelInput& a, const AccelInput& b);
+
 // Whether all of it is the same, to the byte.
 bool sameInput(const AccelInput& a, const AccelInput& b);
 

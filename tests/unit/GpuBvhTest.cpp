@@ -15,6 +15,8 @@ namespace rt::accel {
 namespace {
 
 using testing::Geometry;
+using testing::mixture;
+using testing::placedAt;
 using testing::Random;
 
 GpuBvhSettings alwaysTrees() {
@@ -131,20 +133,6 @@ class Walk {
     const AccelInput& input_;
     const GpuTrees& trees_;
 };
-
-// `count` primitives: all kinds in turn, and of triangles so many in a row.
-Geometry mixture(std::size_t count, std::uint32_t seed, std::size_t triangles = 1) {
-    Geometry geometry;
-    Random random(seed);
-    for (std::size_t i = 0; i < count; ++i) {
-        const shared::vec3 at = random.inCube(10.0f);
-        const std::size_t kind = i % (2 + triangles);
-        if (kind == 0) geometry.addSphere(at, random.uniform(0.01f, 0.3f));
-        if (kind == 1) geometry.addQuad(at, random.inCube(0.4f), random.inCube(0.4f));
-        if (kind >= 2) geometry.addTriangle(at, at + random.inCube(0.4f), at + random.inCube(0.4f));
-    }
-    return geometry;
-}
 
 bool allMet(const std::vector<int>& visits, int times) {
     return std::all_of(visits.begin(), visits.end(), [times](int n) { return n == times; });
@@ -333,19 +321,6 @@ TEST(GpuBvh, OfNothingIsAnEmptyList) {
     const GpuBvh bvh = *buildGpuBvh(geometry.input(), alwaysTrees());
     EXPECT_TRUE(bvh.isLinear);
     EXPECT_TRUE(bvh.lists.vectors.empty());
-}
-
-shared::Instance placedAt(std::uint32_t geometry, shared::vec3 at) {
-    shared::Instance instance{};
-    for (int row = 0; row < 3; ++row) {
-        instance.toWorld[row] = instance.toObject[row] = shared::vec4(0.0f);
-        instance.toWorld[row][row] = instance.toObject[row][row] = 1.0f;
-        instance.toWorld[row].w = at[row];
-        instance.toObject[row].w = -at[row];
-    }
-    instance.geometry = geometry;
-    instance.material = shared::kNone;
-    return instance;
 }
 
 TEST(GpuBvh, FollowsInstances) {

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "Common/Accel/Build/BvhBuilder.h"
@@ -22,5 +24,16 @@ struct SceneTree {
 // *primitivesDone, if given, rises by the number of primitives and instances. The trees refer to `input`.
 bool buildSceneTrees(const AccelInput& input, const BvhSettings& settings, const std::atomic<bool>* cancel,
                      std::atomic<std::uint64_t>* primitivesDone, const std::function<void(SceneTree)>& add);
+
+// In two parts: first all but the world's. Gives the box of each geometry, empty for one that no instance places or that
+// has nothing in it; nothing: cancelled.
+std::optional<std::vector<Box>> buildPlacedTrees(const AccelInput& input, const BvhSettings& settings,
+                                                 const std::atomic<bool>* cancel,
+                                                 std::atomic<std::uint64_t>* primitivesDone,
+                                                 const std::function<void(SceneTree)>& add);
+// Then the world's, by those boxes.
+bool buildWorldTree(const AccelInput& input, std::span<const Box> placed, const BvhSettings& settings,
+                    const std::atomic<bool>* cancel, std::atomic<std::uint64_t>* primitivesDone,
+                    const std::function<void(SceneTree)>& add);
 
 } // namespace rt::accel
