@@ -45,28 +45,32 @@ double chiSquareTail(double x, double degrees) {
     return half < a + 1 ? 1 - lowerGamma(a, half) : upperGamma(a, half);
 }
 
-std::optional<ChiSquare> chiSquare(std::span<const double> counts, std::span<const double> expectations) {
+std::optional<ChiSquare> chiSquare(std::span<const double> counts, std::span<const double> expectations,
+                                   std::span<const double> errors) {
     const double counted = std::accumulate(counts.begin(), counts.end(), 0.0);
     const double expected = std::accumulate(expectations.begin(), expectations.end(), 0.0);
     if (!(expected > 0)) return std::nullopt;
     const double scale = counted / expected;
     std::size_t pools = 0;
-    double statistic = 0, count = 0, expectation = 0, left = counted;
+    double statistic = 0, uncertainty = 0, count = 0, expectation = 0, variance = 0, left = counted;
     const auto close = [&] {
         const double difference = count - expectation;
-        statistic += difference * difference / expectation;
+        statistic += difference * difference / (expectation + variance);
+        uncertainty += variance / (expectation + variance);
         ++pools;
-        count = expectation = 0;
+        count = expectation = variance = 0;
     };
     for (std::size_t i = 0; i < counts.size(); ++i) {
         count += counts[i];
         expectation += expectations[i] * scale;
+        if (!errors.empty()) variance += errors[i] * scale * errors[i] * scale;
         left -= expectations[i] * scale;
         if (expectation >= kMinExpected && left >= kMinExpected) close();
     }
     if (expectation > 0) close();
     if (pools < 2) return std::nullopt;
-    return ChiSquare{statistic, pools - 1, chiSquareTail(statistic, static_cast<double>(pools - 1))};
+    return ChiSquare{statistic, pools - 1, chiSquareTail(statistic, static_cast<double>(pools - 1)),
+                     uncertainty / static_cast<double>(pools)};
 }
 
 } // namespace rt::probe

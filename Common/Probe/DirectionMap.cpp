@@ -12,11 +12,8 @@ using namespace rt::shared;
 
 namespace {
 
-constexpr float kUnequal = 0.2f; // of the most that a cell's places have
-// Places of a cell, squared, where they are unequal.
-constexpr std::uint32_t kFirstSide = 16, kGoodSide = 32, kMostSide = 64;
-constexpr std::size_t kRefinedAtOnce = 16; // cells
-constexpr std::uint32_t kSought = 4096;    // samples, for what lies between places
+constexpr float kUnequal = 0.2f;         // of the most that a cell's places have
+constexpr std::uint32_t kSought = 16384; // samples, for what lies between places
 constexpr std::uint32_t kSoughtNumbers = 0x2545f491;
 
 } // namespace
@@ -25,6 +22,12 @@ double DirectionMap::integral() const {
     double sum = 0;
     for (const float value : values) sum += value;
     return values.empty() ? 0 : sum * cellSolidAngle();
+}
+
+double DirectionMap::integralError() const {
+    double sum = 0;
+    for (const float error : errors) sum += static_cast<double>(error) * error;
+    return std::sqrt(sum) * cellSolidAngle();
 }
 
 double DirectionMap::cellSolidAngle() const {
@@ -75,7 +78,7 @@ MapBuilder::MapBuilder(const Probe& probe, const Strategy& strategy, const MapSe
       strategy_(strategy),
       settings_(settings),
       numbers_{app::SamplerKind::Sobol, 1, seed},
-      map_{settings.projection, settings.height, makeFrame(probe.vertex().shading), {}},
+      map_{settings.projection, settings.height, makeFrame(probe.vertex().shading), {}, {}},
       sums_(std::size_t{map_.width()} * map_.height),
       passes_(isTraced(settings.quantity) ? settings.paths : settings.side * settings.side) {
     if (!isRefined()) return;
@@ -84,33 +87,29 @@ MapBuilder::MapBuilder(const Probe& probe, const Strategy& strategy, const MapSe
 }
 
 // At the i-th of side * side places of a cell.
-double MapBuilder::placeValue(std::uint32_t column, std::uint32_t row, std::uint32_t i, std::uint32_t side) const {
+double MapBuilder::placeValue(std::uint32_t column, std::uint32_t row, std::uint32_t i) const {
+    const std::uint32_t side = settings_.side;
     const glm::dvec2 inCell((i % side + 0.5) / side, (i / side + 0.5) / side); // NOLINT(bugprone-integer-division)
-    return valueIn(column, row, inCell, {});
+    return valueAt((glm::dvec2(column, row) + inCell) / glm::dvec2(map_.width(), map_.height), {});
 }
 
 double MapBuilder::pathValue(std::uint32_t column, std::uint32_t row) const {
     const Sampler sampler = samplerOf(numbers_, 1u + row * map_.width() + column, pass_);
-    return valueIn(column, row, glm::dvec2(sample2D(sampler, kDimensionPixel)), sampler);
+    const glm::dvec2 inCell(sample2D(sampler, kDimensionPixel));
+    return valueAt((glm::dvec2(column, row) + inCell) / glm::dvec2(map_.width(), map_.height), sampler);
 }
 
-double MapBuilder::valueIn(std::uint32_t column, std::uint32_t row, const glm::dvec2& inCell,
-                           const Sampler& sampler) const {
-    const auto direction = map_.directionOf({(column + inCell.x) / map_.width(), (row + inCell.y) / map_.height});
+double MapBuilder::valueAt(const glm::dvec2& place, const Sampler& sampler) const {
+    const auto direction = map_.directionOf(place);
     return direction ? probe_->value(settings_.quantity, strategy_, *direction, sampler) : 0;
 }
 
 void MapBuilder::advance() {
     if (isDone()) return;
-    if (pass_ == passes_) {
-        const std::size_t end = std::min(refined_ + kRefinedAtOnce, unequal_.size());
-        for (; refined_ < end; ++refined_) refine(unequal_[refined_]);
-        return;
-    }
+    if (pass_ == passes_) return unequal_.advance();
     for (std::uint32_t column = 0; column < map_.width(); ++column) {
         const std::size_t cell = std::size_t{row_} * map_.width() + column;
-        const double value =
-            isTraced(settings_.quantity) ? pathValue(column, row_) : placeValue(column, row_, pass_, settings_.side);
+        const double value = isTraced(settings_.quantity) ? pathValue(column, row_) : placeValue(column, row_, pass_);
         sums_[cell] += value;
         if (least_.empty()) continue;
         least_[cell] = std::min(least_[cell], static_cast<float>(value));
@@ -127,6 +126,7 @@ void MapBuilder::findUnequal() {
     for (std::size_t cell = 0; cell < sums_.size(); ++cell)
         isFound[cell] = most_[cell] - least_[cell] > kUnequal * most_[cell] ? 1 : 0;
     const NumberSettings numbers{app::SamplerKind::Sobol, 1, numbers_.seed ^ kSoughtNumbers};
+    std::vector<Guide> guides;
     for (std::uint32_t i = 0; i < kSought; ++i) {
         const auto direction = probe_->draw(strategy_, numbers, i).direction;
         const auto place = direction ? map_.placeOf(*direction) : std::nullopt;
@@ -134,32 +134,32 @@ void MapBuilder::findUnequal() {
         const std::size_t cell = map_.cellAt(*place);
         const double own = probe_->density(strategy_, *direction), mean = sums_[cell] / passes_;
         if (std::abs(own - mean) > kUnequal * std::max(own, mean)) isFound[cell] = 1;
+        guides.push_back({*place, own});
     }
+    // An edge may lie between places of two cells.
+    const auto isEdge = [&](std::size_t a, std::size_t b) {
+        return std::abs(sums_[a] - sums_[b]) > kUnequal * std::max(sums_[a], sums_[b]);
+    };
     for (std::int64_t row = 0; row < height; ++row)
         for (std::int64_t column = 0; column < width; ++column) {
-            if (isFound[static_cast<std::size_t>(row * width + column)] == 0) continue;
+            const auto cell = static_cast<std::size_t>(row * width + column);
+            const auto beside = static_cast<std::size_t>(row * width + (column + 1) % width);
+            const auto below = static_cast<std::size_t>(std::min(row + 1, height - 1) * width + column);
+            if (isFound[cell] == 0 && !isEdge(cell, beside) && !isEdge(cell, below)) continue;
             for (std::int64_t y = std::max<std::int64_t>(row - 1, 0); y <= std::min(row + 1, height - 1); ++y)
                 for (std::int64_t x = column - 1; x <= column + 1; ++x)
                     isUnequal[static_cast<std::size_t>(y * width + (x + width) % width)] = 1;
         }
+    std::vector<std::size_t> unequal;
     for (std::size_t cell = 0; cell < isUnequal.size(); ++cell)
-        if (isUnequal[cell] != 0) unequal_.push_back(cell);
-}
-
-// By twice as many places a side, until that makes no difference; where something lies, not before what is small in a
-// cell is known well.
-void MapBuilder::refine(std::size_t cell) {
-    const auto column = static_cast<std::uint32_t>(cell % map_.width());
-    const auto row = static_cast<std::uint32_t>(cell / map_.width());
-    const double least = settings_.tolerance / map_.cellSolidAngle();
-    double mean = sums_[cell] / passes_;
-    for (std::uint32_t side = kFirstSide; side <= kMostSide; side *= 2) {
-        double sum = 0;
-        for (std::uint32_t i = 0; i < side * side; ++i) sum += placeValue(column, row, i, side);
-        const double before = std::exchange(mean, sum / (side * side));
-        if (std::abs(mean - before) < least && (side >= kGoodSide || mean == 0)) break;
-    }
-    sums_[cell] = mean * passes_;
+        if (isUnequal[cell] != 0) unequal.push_back(cell);
+    const auto density = [probe = probe_, strategy = strategy_, cells = map_](const glm::dvec2& place) {
+        const auto direction = cells.directionOf(place);
+        return direction ? static_cast<double>(probe->density(strategy, *direction)) : 0;
+    };
+    const CellIntegrals::Settings settings{map_.width(), map_.height, map_.cellSolidAngle(),
+                                           static_cast<double>(settings_.samples), numbers_.seed};
+    unequal_ = CellIntegrals(density, settings, std::move(unequal), std::move(guides), kSought);
 }
 
 DirectionMap MapBuilder::map() const {
@@ -168,6 +168,13 @@ DirectionMap MapBuilder::map() const {
     for (std::size_t i = 0; i < sums_.size(); ++i) {
         const std::uint32_t count = pass_ + (i / map.width() < row_ ? 1 : 0);
         map.values[i] = count > 0 ? static_cast<float>(sums_[i] / count) : 0.0f;
+    }
+    if (least_.empty() || !isDone()) return map;
+    for (std::size_t i = 0; i < sums_.size(); ++i)
+        map.errors.push_back((most_[i] - least_[i]) / static_cast<float>(passes_));
+    for (std::size_t i = 0; i < unequal_.cells().size(); ++i) {
+        map.values[unequal_.cells()[i]] = static_cast<float>(unequal_.means()[i].value);
+        map.errors[unequal_.cells()[i]] = static_cast<float>(unequal_.means()[i].error);
     }
     return map;
 }

@@ -12,21 +12,27 @@ Json numbers(const shared::vec3& v) {
     return {v.x, v.y, v.z};
 }
 
-Json testJson(const std::optional<ChiSquare>& test) {
-    if (!test) return nullptr;
-    return {{"statistic", test->statistic}, {"degrees", test->degrees}, {"p", test->p}};
+// Of all samples.
+Json testJson(const ProbeResult& result) {
+    if (result.tests.empty() || !result.tests.back().test.cells) return nullptr;
+    const DensityTest& test = result.tests.back().test;
+    return {{"statistic", test.cells->statistic},
+            {"degrees", test.cells->degrees},
+            {"p", test.cells->p},
+            {"resolved", test.isResolved()}};
 }
 
 Json growthJson(const std::vector<TestOf>& tests) {
     Json growth = Json::array();
     for (const TestOf& test : tests)
-        if (test.test) growth.push_back({test.samples, test.test->p});
+        if (test.test.cells) growth.push_back({test.samples, test.test.cells->p});
     return growth;
 }
 
 Json estimatesJson(const std::vector<EstimateOf>& estimates) {
     Json all = Json::object();
-    for (const EstimateOf& e : estimates) all[e.name] = {{"mean", e.mean}, {"variance", e.variance}};
+    for (const EstimateOf& e : estimates)
+        all[e.name] = {{"mean", e.mean}, {"variance", e.variance}, {"exact", e.isExact()}};
     return all;
 }
 
@@ -52,9 +58,11 @@ Json figuresOf(const ProbeResult& result, const std::string& scene, const std::a
             {"lights", result.lights},
             {"selection", selectionJson(result.selection)},
             {"integral", result.density.integral()},
+            {"integral_error", result.density.integralError()},
             {"samples", result.samples},
             {"dropped", result.dropped},
-            {"chi_square", testJson(result.tests.empty() ? std::nullopt : result.tests.back().test)},
+            {"total_p", result.tests.empty() ? Json() : Json(result.tests.back().test.total)},
+            {"chi_square", testJson(result)},
             {"chi_square_growth", growthJson(result.tests)},
             {"estimates", estimatesJson(result.estimates)}};
 }

@@ -10,11 +10,10 @@ constexpr std::uint32_t kCoarseRows = 16;
 constexpr std::uint32_t kPortion = 256; // samples
 constexpr std::uint32_t kTests = 64;    // as samples grow, about
 constexpr std::size_t kLikelyLights = 16;
-constexpr double kErrorOfCount = 0.05; // of a cell's expected samples
 constexpr std::uint32_t kPointsOfEdge = 96;
 
 MapSettings mapSettings(const ProbeSettings& settings, Projection projection) {
-    return {settings.quantity, projection, settings.rows, settings.side, settings.paths};
+    return {settings.quantity, projection, settings.rows, settings.side, settings.paths, settings.samples};
 }
 
 // Whether it is the map by which samples are tested.
@@ -50,10 +49,9 @@ std::vector<std::vector<shared::vec3>> edgesOf(const Probe& probe, const ProbeSe
 ProbeRun::ProbeRun(const Probe& probe, const ProbeSettings& settings)
     : probe_(&probe),
       settings_(settings),
-      density_(
-          probe, settings.strategy,
-          {Quantity::Density, Projection::Sphere, settings.rows, settings.side, 1, kErrorOfCount / settings.samples},
-          settings.numbers.seed),
+      density_(probe, settings.strategy,
+               {Quantity::Density, Projection::Sphere, settings.rows, settings.side, 1, settings.samples},
+               settings.numbers.seed),
       counts_(std::size_t{2} * settings.rows * settings.rows) {
     for (const Projection projection : settings.projections)
         if (!isDensity(settings, projection))
@@ -103,19 +101,15 @@ void ProbeRun::begin() {
 }
 
 void ProbeRun::growSamples() {
-    if (expected_.empty()) {
-        const DirectionMap map = density_.map();
-        expected_.assign(map.values.begin(), map.values.end());
-    }
+    if (tested_.values.empty()) tested_ = density_.map();
     const std::uint32_t end = std::min(samples_ + kPortion, settings_.samples);
-    const DirectionMap cells{Projection::Sphere, settings_.rows, {}, {}};
     for (; samples_ < end; ++samples_) {
         const auto direction = probe_->draw(settings_.strategy, settings_.numbers, samples_).direction;
-        direction ? (void)++counts_[cells.cellOf(*direction)] : (void)++dropped_;
+        direction ? (void)++counts_[tested_.cellOf(*direction)] : (void)++dropped_;
     }
     const std::uint32_t step = std::max(settings_.samples / kTests / kPortion, 1u) * kPortion;
     if (samples_ % step == 0 || samples_ == settings_.samples)
-        tests_.push_back({samples_, chiSquare(counts_, expected_)});
+        tests_.push_back({samples_, testDensity(counts_, dropped_, tested_)});
 }
 
 void ProbeRun::growEstimates() {

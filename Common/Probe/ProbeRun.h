@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "Common/Probe/ChiSquare.h"
+#include "Common/Probe/DensityTest.h"
 #include "Common/Probe/DirectionMap.h"
 #include "Common/Probe/Estimate.h"
 #include "Common/Probe/Probe.h"
@@ -31,12 +31,15 @@ struct EstimateOf {
     std::string name, title;       // of the strategy
     double mean = 0, variance = 0; // as DirectEstimate
     std::uint32_t samples = 0;
+
+    // Whether all samples have the same value, but for rounding in single precision.
+    bool isExact() const { return mean > 0 && variance < 1e-9 * mean * mean; }
 };
 
 // Of the first so many samples.
 struct TestOf {
     std::uint32_t samples = 0;
-    std::optional<ChiSquare> test;
+    DensityTest test;
 };
 
 struct ProbeResult {
@@ -85,7 +88,7 @@ class ProbeRun {
     std::vector<std::vector<shared::vec3>> edges_;
     std::vector<double> counts_; // of samples, in the cells of density_
     std::uint32_t samples_ = 0, dropped_ = 0;
-    std::vector<double> expected_; // as density_ says, once it is done
+    DirectionMap tested_; // as density_ says, once it is done
     std::vector<TestOf> tests_;
     // A strategy of kShapeStrategies.
     struct Shapes {

@@ -15,12 +15,12 @@ namespace {
 
 // Counts of n draws from the weights, and what is expected of other weights.
 std::optional<probe::ChiSquare> drawn(const std::vector<double>& weights, const std::vector<double>& expectations,
-                                      int n) {
+                                      int n, const std::vector<double>& errors = {}) {
     std::mt19937_64 random(5);
     std::discrete_distribution<std::size_t> draw(weights.begin(), weights.end());
     std::vector<double> counts(weights.size());
     for (int i = 0; i < n; ++i) ++counts[draw(random)];
-    return probe::chiSquare(counts, expectations);
+    return probe::chiSquare(counts, expectations, errors);
 }
 
 } // namespace
@@ -54,6 +54,21 @@ TEST(ChiSquare, PoolsWhatIsRare) {
     // The expectations' sum does not count, and counts where none is expected do.
     EXPECT_EQ(probe::chiSquare(std::vector<double>{10, 30}, std::vector<double>{1, 3})->statistic, 0);
     EXPECT_GT(probe::chiSquare(std::vector<double>{20, 10, 20}, std::vector<double>{1, 0, 1})->statistic, 1);
+}
+
+// Expectations that are off by their errors, as often as not.
+TEST(ChiSquare, ErrorsOfExpectationsAreVariance) {
+    std::vector<double> weights(400, 1), guessed(400);
+    const std::vector<double> errors(400, 0.1);
+    std::mt19937_64 random(7);
+    std::normal_distribution<double> error(0, 0.1);
+    for (double& each : guessed) each = 1 + error(random);
+    const auto exact = drawn(weights, guessed, 100000);
+    EXPECT_LT(exact->p, 1e-6);
+    EXPECT_EQ(exact->uncertainty, 0);
+    const auto known = drawn(weights, guessed, 100000, errors);
+    EXPECT_GT(known->p, 1e-3);
+    EXPECT_NEAR(known->uncertainty, 0.7, 0.05); // 25^2 of 25^2 + 250
 }
 
 TEST(ChiSquare, TooLittleIsNoTest) {

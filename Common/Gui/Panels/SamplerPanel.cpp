@@ -84,30 +84,40 @@ void drawSettings(Gui& gui) {
 
 // ---- what is answered ----------------------------------------------------------------------------------------------
 
-void drawTest(const probe::ProbeResult& result) {
+// What integral and dropped samples say; the former is known to its error.
+void drawTotal(const probe::ProbeResult& result) {
     const double dropped = result.samples > 0 ? 100.0 * result.dropped / result.samples : 0;
-    note(formatted("Integral %.4f; %.3g %% of samples dropped", result.density.integral(), dropped));
+    const bool isWrong = !result.tests.empty() && result.tests.back().test.total < probe::DensityTest::kSuspicious;
+    note(formatted("Integral %.4f +- %.1g; %.3g %% of samples dropped", result.density.integral(),
+                   result.density.integralError(), dropped) +
+         (isWrong ? ": that does not make 1" : ""));
     tooltip(
-        "Of the density over all directions: 1, less what is dropped as absorbed, below the surface, or of a light "
-        "without extent");
+        "Of the density over all directions: 1, less what is dropped as absorbed, below the surface, on the back of a "
+        "lamp, or of a light without extent");
+}
+
+void drawTest(const probe::ProbeResult& result) {
+    drawTotal(result);
     if (result.tests.empty()) return note("Chi-square: after the map");
     const probe::TestOf& last = result.tests.back();
-    if (!last.test) return note("Chi-square: too few samples or cells");
+    const auto& cells = last.test.cells;
+    if (!cells) return note("Chi-square: too few samples or cells");
+    const std::string found = formatted("Chi-square %.1f of %zu degrees: ", cells->statistic, cells->degrees);
     ImGui::TextUnformatted(
-        formatted("Chi-square %.1f of %zu degrees: p = %.3f", last.test->statistic, last.test->degrees, last.test->p)
-            .c_str());
+        (found + (last.test.isResolved() ? formatted("p = %.3f", cells->p) : "not resolved")).c_str());
     tooltip(
         "Pearson's test of the samples against the map. Below 0.001: they do not follow the density. Close to 1: "
-        "they follow it better than by chance, as stratified ones do");
+        "they follow it better than by chance, as stratified ones do. Not resolved: the density is too fine for its "
+        "integrals over cells to be known well enough for so many samples, and p says nothing");
     std::vector<float> growth;
     for (const probe::TestOf& test : result.tests)
-        if (test.test) growth.push_back(static_cast<float>(test.test->p));
+        if (test.test.cells) growth.push_back(static_cast<float>(test.test.cells->p));
     ImGui::PlotLines("##growth", growth.data(), static_cast<int>(growth.size()), 0, nullptr, 0, 1,
                      {ImGui::GetContentRegionAvail().x, 2.5f * ImGui::GetFontSize()});
     tooltip(("p from 0 to 1, as samples grow; here " + withPrefix(last.samples)).c_str());
 }
 
-// The best one first, with the others by its measure.
+// The best one first, with the others by the measure of the best that is not exact.
 void drawVariances(const probe::ProbeResult& result) {
     std::vector<probe::EstimateOf> sorted;
     for (const probe::EstimateOf& estimate : result.estimates)
@@ -119,15 +129,18 @@ void drawVariances(const probe::ProbeResult& result) {
     ImGui::TableSetupColumn("Variance a sample");
     ImGui::TableSetupColumn("Ratio");
     ImGui::TableHeadersRow();
-    const double best = sorted.front().variance;
+    const auto first = std::ranges::find_if_not(sorted, &probe::EstimateOf::isExact);
+    const double best = first == sorted.end() ? 0 : first->variance;
     for (const probe::EstimateOf& estimate : sorted) {
         ImGui::TableNextColumn();
         ImGui::TextUnformatted(estimate.title.c_str());
         tooltip(formatted("Mean %.4g: light of lamps and sky that comes by way of the point", estimate.mean).c_str());
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(formatted("%.3g", estimate.variance).c_str());
+        ImGui::TextUnformatted(estimate.isExact() ? "0" : formatted("%.3g", estimate.variance).c_str());
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(best > 0 ? formatted("%.3g", estimate.variance / best).c_str() : "-");
+        const std::string ratio = best > 0 ? formatted("%.3g", estimate.variance / best) : "-";
+        ImGui::TextUnformatted(estimate.isExact() ? "exact" : ratio.c_str());
+        if (estimate.isExact()) tooltip("Every sample has the same value, but for rounding");
     }
     ImGui::EndTable();
 }
