@@ -53,6 +53,9 @@ TEST_F(ProbeTool, MapsIntegrateToOneAndSamplesFollowThem) {
         EXPECT_EQ(found["dropped"], 0) << strategy;
         EXPECT_GT(found["chi_square"]["degrees"], 20) << strategy;
         EXPECT_GT(found["chi_square"]["p"], 1e-4) << strategy;
+        EXPECT_EQ(found["chi_square"]["resolved"], true) << strategy;
+        EXPECT_GT(found["total_p"], 1e-4) << strategy;
+        EXPECT_LT(found["integral_error"], 0.001) << strategy;
     }
     // What chooses the point light, which has no directions, is not in the map.
     for (const char* strategy : {"lights", "mixture", "mis"}) {
