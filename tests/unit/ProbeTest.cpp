@@ -169,18 +169,19 @@ TEST_F(Probes, WhatIsNotKnownWellEnoughIsNotWrong) {
     lookAt("cornell-box-lights", 300, 470, 600);
     ProbeSettings settings;
     settings.strategy = {StrategyKind::Light, 7};
-    settings.samples = 1 << 20;
+    settings.samples = 1 << 17;
     EXPECT_FALSE(resultOf(settings).tests.back().test.isResolved());
 }
 
 TEST_F(Probes, WhatIsExactIsSaidToBe) {
     scene::SceneDesc room = test::probedRoom();
-    room.objects.resize(2); // the floor and a ball
+    room.objects.resize(2); // the floor, and a ball that is sampled by projected solid angle
     look(room);
     ProbeSettings settings;
     settings.rows = 16;
     for (const EstimateOf& estimate : resultOf(settings).estimates)
-        EXPECT_EQ(estimate.isExact(), estimate.name == "lights-projected") << estimate.name << estimate.variance;
+        EXPECT_EQ(estimate.isExact(), estimate.name == "lights" || estimate.name == "lights-projected")
+            << estimate.name;
 }
 
 TEST_F(Probes, AWrongDensityFails) {
