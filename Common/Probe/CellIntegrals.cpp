@@ -13,8 +13,8 @@ constexpr std::size_t kMostDivisions = 16384;   // some ten milliseconds of a li
 constexpr double kSmallUncertainty = 0.05;      // of the statistic, whose deviation is 1.4 or more
 constexpr double kFewest = 5;                   // samples that are expected in a pool of cells
 constexpr std::size_t kRootsAtOnce = 4, kDivisionsAtOnce = 16, kMeasuredAtOnce = 64;
-constexpr std::uint32_t kSide = 2, kGoodSide = 4,
-                        kMostSide = 32;   // places of a leaf, squared; the latter of uncertain ones
+// Places of a leaf, squared: of any, of uncertain ones, of those that may get more.
+constexpr std::uint32_t kSide = 2, kGoodSide = 4, kMostSide = 32;
 constexpr double kMostError = 0.01;       // of a leaf's integral, before it gets more places
 constexpr double kInset = 1e-3;           // of corners, in the leaf: an edge of the density may be one of the map's
 constexpr std::uint32_t kMostGuides = 64; // looked at in a leaf

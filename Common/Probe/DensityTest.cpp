@@ -8,8 +8,8 @@
 namespace rt::probe {
 
 bool DensityTest::isResolved() const {
-    constexpr double kMostUncertainty = 0.3, kMostError = 0.03;
-    return (!cells || cells->uncertainty <= kMostUncertainty) && error <= kMostError;
+    constexpr double kMostUncertainty = 0.3, kMostErrorOfAll = 0.03;
+    return (!cells || cells->uncertainty <= kMostUncertainty) && error <= kMostErrorOfAll;
 }
 
 DensityTest testDensity(std::span<const double> counts, double dropped, const DirectionMap& density) {

@@ -18,8 +18,8 @@ struct DensityTest {
     bool isResolved() const;
 };
 
-// Of the samples of a density's map of all directions `counts` fell in its cells. Errors of the map's integrals are part
-// of the variance. No chi-square where too little is counted.
+// `counts`: of samples in the cells of the density's map, which has all directions. Errors of the map's integrals are a
+// part of the variance. No chi-square where too little is counted.
 DensityTest testDensity(std::span<const double> counts, double dropped, const DirectionMap& density);
 
 } // namespace rt::probe

@@ -14,12 +14,12 @@ namespace {
 
 constexpr std::uint32_t kCellSide = 8; // cells along a map of solid angle 1
 
-struct Integrated {
+struct SumOfCells {
     double integral = 0, error = 0;
 };
 
 // Guides: places that the samples of the density have, each of `drawn`.
-Integrated integrated(const CellIntegrals::Density& density, const std::vector<glm::dvec2>& places) {
+SumOfCells sumOfCells(const CellIntegrals::Density& density, const std::vector<glm::dvec2>& places) {
     std::vector<std::size_t> cells(std::size_t{kCellSide} * kCellSide);
     std::iota(cells.begin(), cells.end(), std::size_t{0});
     std::vector<Guide> guides;
@@ -28,7 +28,7 @@ Integrated integrated(const CellIntegrals::Density& density, const std::vector<g
     CellIntegrals integrals(density, {kCellSide, kCellSide, solidAngle, 4096, 3}, cells, guides,
                             static_cast<double>(places.size()));
     while (!integrals.isDone()) integrals.advance();
-    Integrated all;
+    SumOfCells all;
     for (const CellIntegrals::Mean& mean : integrals.means()) {
         all.integral += mean.value * solidAngle;
         all.error = std::hypot(all.error, mean.error * solidAngle);
@@ -47,7 +47,7 @@ TEST(CellIntegrals, AThinStripIsFound) {
         const double x = (i + 0.5) / 4096, across = std::fmod(i * 0.618034, 1.0) - 0.5;
         places.emplace_back(x, 0.3 + 0.4 * x + 0.99 * kWidth * across);
     }
-    const Integrated found = integrated(density, places);
+    const SumOfCells found = sumOfCells(density, places);
     EXPECT_LT(found.error, 0.01);
     EXPECT_NEAR(found.integral, 1, 4.5 * found.error);
 }
@@ -63,7 +63,7 @@ TEST(CellIntegrals, AnEdgeWithoutABoundIsKnownToItsError) {
         const double u = std::fmod(i * 0.618034, 1.0);
         places.emplace_back(kEdge + (1 - kEdge) * u * u, (i + 0.5) / 4096);
     }
-    const Integrated found = integrated(density, places);
+    const SumOfCells found = sumOfCells(density, places);
     EXPECT_LT(found.error, 0.005);
     EXPECT_NEAR(found.integral, 1, 4.5 * found.error);
 }
