@@ -166,9 +166,10 @@ Seen see(const Image& image, double pixelsPerDegree) {
     for (Plane& plane : opponent) plane = Plane(image.width, image.height, 1);
     Plane luminance(image.width, image.height, 1);
     for (std::size_t i = 0; i < luminance.data.size(); ++i) {
-        const float* rgb = &image.data[3 * i];
-        const vec3 value = opponentFromRgb(
-            {std::clamp(rgb[0], 0.0f, 1.0f), std::clamp(rgb[1], 0.0f, 1.0f), std::clamp(rgb[2], 0.0f, 1.0f)});
+        const float* from = &image.data[i * image.channels];
+        const std::size_t green = image.channels == 3 ? 1 : 0; // one channel is grey
+        const vec3 rgb(from[0], from[green], from[2 * green]);
+        const vec3 value = opponentFromRgb(glm::clamp(rgb, vec3(0.0f), vec3(1.0f)));
         for (std::size_t c = 0; c < 3; ++c) opponent[c].data[i] = value[static_cast<int>(c)];
         luminance.data[i] = (value.x + 16.0f) / 116.0f;
     }

@@ -9,8 +9,8 @@ namespace rt::image {
 // A monitor of 3840 pixels on 0.7 m, seen from 0.7 m: the paper's default.
 inline constexpr double kFlipPixelsPerDegree = 67.0206432766;
 
-// Per pixel in [0,1], one channel. Both images are linear radiance with 3 channels; as on a screen, values are clamped
-// to [0,1]. Throws InputError unless both have the same size and are finite.
+// Per pixel in [0,1], one channel. Both images are linear radiance, one channel is grey; as on a screen, values are
+// clamped to [0,1]. Throws InputError unless both have the same size and are finite.
 Image flipMap(const Image& image, const Image& reference, double pixelsPerDegree = kFlipPixelsPerDegree);
 
 // The mean of flipMap: 0 for images that look the same, at most 1.
