@@ -39,8 +39,6 @@ std::string unexpected(const char* name, const std::string& expected, const std:
 
 std::string demandText(Demand demand) {
     switch (demand) {
-        case Demand::Unit:
-            return "vectors of length 1";
         case Demand::UnitOr0:
             return "vectors of length 1 or 0";
         case Demand::Fraction:
@@ -63,13 +61,13 @@ bool isAsDemanded(const float* row, std::size_t width, Demand demand) {
         squared += x * x;
     }
     if (demand == Demand::UnitOr0 && squared == 0) return true;
-    return (demand != Demand::Unit && demand != Demand::UnitOr0) || std::abs(squared - 1) <= kUnitTolerance;
+    return demand != Demand::UnitOr0 || std::abs(squared - 1) <= kUnitTolerance;
 }
 
 // Whether all numbers, of rows that need not be vectors, are as demanded: by their bits, which compilers make vectors
 // of. False also where only a closer look tells, as at -0.
 bool areSurelyAsDemanded(const float* numbers, std::size_t count, Demand demand) {
-    if (demand == Demand::Unit || demand == Demand::UnitOr0) return false;
+    if (demand == Demand::UnitOr0) return false;
     const bool isFraction = demand == Demand::Fraction;
     const std::uint32_t mask = isFraction ? 0xffffffffu : 0x7fffffffu; // the sign is free, or must not be there
     const std::uint32_t end = isFraction ? 0x3f800000u : 0x7f800000u;  // 1, or infinity

@@ -10,14 +10,14 @@
 
 #include "Common/Image/Image.h"
 #include "Common/Shared/Base/Types.h"
+#include "Python/Activity.h"
 
 namespace rt::python {
 
 // What the numbers of an argument must be beyond finite.
 enum class Demand {
     Finite,
-    Unit,     // rows are vectors of length 1
-    UnitOr0,  // or 0
+    UnitOr0,  // rows are vectors of length 1, or 0 for none
     Fraction, // in [0, 1)
     Distance  // at least 0, or infinite
 };
@@ -94,10 +94,14 @@ struct NewArray {
 };
 using NewFloats = NewArray<float>;
 
+inline bool isZero(const shared::vec3& v) {
+    return v.x == 0.0f && v.y == 0.0f && v.z == 0.0f;
+}
+
 // Calls fill(i) for each row, while other threads may run Python.
 template <class Fill>
 void forEachRow(std::size_t count, const Fill& fill) {
-    const pybind11::gil_scoped_release released;
+    const Released released;
     for (std::size_t i = 0; i < count; ++i) fill(i);
 }
 

@@ -40,9 +40,10 @@ struct BsdfArguments {
     BsdfArguments(const Scene& scene, const py::object& index, const py::object& n, const py::object& o,
                   const py::object& at)
         : material(materialAt(scene, index)),
-          normal(n, "normals", 3, Demand::Unit),
-          wo(o, "wo", 3, Demand::Unit),
+          normal(n, "normals", 3, Demand::UnitOr0),
+          wo(o, "wo", 3, Demand::UnitOr0),
           uv(at, "uv", 2) {}
+    bool isNowhere(std::size_t i) const { return isZero(normal.vec3(i)) || isZero(wo.vec3(i)); }
     Vertex vertex(const Scene& scene, std::size_t i) const {
         return vertexOn(scene, material, normal.vec3(i), uv.vec2(i), wo.vec3(i));
     }
@@ -56,7 +57,8 @@ py::tuple sampleBsdfs(const Scene& scene, const py::object& index, const py::obj
     NewFloats wi(count, 3), weight(count, 3), pdf(count);
     NewArray<bool> delta(count), transmitted(count);
     forEachRow(count, [&](std::size_t i) {
-        const BsdfSample s = sampleScattering(kFeatureAll, arguments.vertex(scene, i), u.vec2(i));
+        const BsdfSample s =
+            arguments.isNowhere(i) ? absorbed() : sampleScattering(kFeatureAll, arguments.vertex(scene, i), u.vec2(i));
         wi.set(i, s.wi);
         weight.set(i, s.weight);
         pdf.set(i, s.pdf);
@@ -69,11 +71,13 @@ py::tuple sampleBsdfs(const Scene& scene, const py::object& index, const py::obj
 py::tuple evalBsdfs(const Scene& scene, const py::object& index, const py::object& normals, const py::object& outgoing,
                     const py::object& incoming, const py::object& at) {
     const BsdfArguments arguments(scene, index, normals, outgoing, at);
-    const Rows wi(incoming, "wi", 3, Demand::Unit);
+    const Rows wi(incoming, "wi", 3, Demand::UnitOr0);
     const std::size_t count = commonCount({&arguments.normal, &arguments.wo, &arguments.uv, &wi});
     NewFloats value(count, 3), pdf(count);
     forEachRow(count, [&](std::size_t i) {
-        const shared::vec4 f = evalScattering(kFeatureAll, arguments.vertex(scene, i), wi.vec3(i));
+        const bool isNone = arguments.isNowhere(i) || isZero(wi.vec3(i));
+        const shared::vec4 f = isNone ? shared::vec4(0.0f, 0.0f, 0.0f, 0.0f)
+                                      : evalScattering(kFeatureAll, arguments.vertex(scene, i), wi.vec3(i));
         value.set(i, shared::vec3(f));
         pdf.set(i, f.w);
     });

@@ -5,6 +5,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
+#include "Python/Activity.h"
 #include "Python/Bindings.h"
 
 namespace rt::python {
@@ -53,7 +54,10 @@ void translate(std::exception_ptr pointer) {
         value.attr("exit_code") = static_cast<int>(error.code());
         PyErr_SetObject(typeOf(error.code()).ptr(), value.ptr());
     } catch (const Interrupted&) {
-        PyErr_SetString(PyExc_KeyboardInterrupt, "interrupted");
+        if (threadMustEnd())
+            PyErr_SetNone(PyExc_SystemExit); // which ends a thread without a word
+        else
+            PyErr_SetString(PyExc_KeyboardInterrupt, "interrupted");
     }
 }
 
@@ -73,6 +77,8 @@ void bindErrors(py::module_& module) {
     types->render =
         makeType(module, "RenderError", py::make_tuple(types->error), "A device, a render or an output has failed.");
     types->noDevice = makeType(module, "NoDeviceError", py::make_tuple(types->error), "No suitable device.");
+    for (const ExitCode code : {ExitCode::Usage, ExitCode::Input, ExitCode::NoDevice})
+        typeOf(code).attr("exit_code") = static_cast<int>(code); // also of what the package itself raises
     py::register_exception_translator(&translate);
 }
 

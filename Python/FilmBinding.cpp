@@ -9,6 +9,7 @@
 #include "Common/App/Options/OptionValues.h"
 #include "Common/Render/Names.h"
 #include "Common/Render/Progress.h"
+#include "Python/Activity.h"
 #include "Python/Arrays.h"
 #include "Python/Bindings.h"
 #include "Python/Engines.h"
@@ -18,20 +19,21 @@ namespace rt::python {
 namespace {
 
 namespace py = pybind11;
-using Released = py::call_guard<py::gil_scoped_release>;
+using WhileOthersRun = py::call_guard<Released>;
 
 // Makes an array of what `make` gives while other threads of Python run.
 template <class Make>
 py::array arrayOf(const Make& make) {
     image::Image image;
     {
-        const py::gil_scoped_release released;
+        const Released released;
         image = make();
     }
     return toArray(std::move(image));
 }
 
 std::optional<std::string> advance(ScriptedFilm& film, double seconds) {
+    const Released released(&film.cancelFlag());
     const std::optional<app::StopReason> reason = film.advance(seconds);
     return reason ? std::optional(app::nameOf(app::kStopReasons, *reason)) : std::nullopt;
 }
@@ -39,7 +41,7 @@ std::optional<std::string> advance(ScriptedFilm& film, double seconds) {
 py::tuple progress(ScriptedFilm& film) {
     app::ProgressState state;
     {
-        const py::gil_scoped_release released;
+        const Released released;
         state = film.progress();
     }
     return py::make_tuple(state.samplesDone, state.samplesTotal, state.pixels, state.seconds,
@@ -50,12 +52,12 @@ py::tuple progress(ScriptedFilm& film) {
 
 void bindFilm(py::module_& module) {
     py::class_<ScriptedFilm>(module, "Film")
-        .def(py::init<const std::shared_ptr<Scene>&, app::Options>(), Released())
-        .def("advance", &advance, Released())
+        .def(py::init<const std::shared_ptr<Scene>&, app::Options>(), WhileOthersRun())
+        .def("advance", &advance)
         .def("cancel", &ScriptedFilm::cancel)
-        .def("write", &ScriptedFilm::write, Released())
-        .def("save", &ScriptedFilm::save, Released())
-        .def("statistics", &ScriptedFilm::statistics, Released())
+        .def("write", &ScriptedFilm::write, WhileOthersRun())
+        .def("save", &ScriptedFilm::save, WhileOthersRun())
+        .def("statistics", &ScriptedFilm::statistics, WhileOthersRun())
         .def("progress", &progress)
         .def("image", [](ScriptedFilm& film) { return arrayOf([&] { return film.image(); }); })
         .def("aov",
@@ -70,8 +72,8 @@ void bindFilm(py::module_& module) {
     for (const auto& row : app::kAovs) aovs.append(std::string(row.name));
     module.attr("aov_names") = py::tuple(aovs);
     module.attr("has_gpu") = hasGpuEngine();
-    module.def("has_hardware_device", &hasHardwareDevice, Released());
-    module.def("describe_devices", &describeDevices, Released());
+    module.def("has_hardware_device", &hasHardwareDevice, WhileOthersRun());
+    module.def("describe_devices", &describeDevices, WhileOthersRun());
 }
 
 } // namespace rt::python

@@ -1,4 +1,5 @@
 // Image files, metrics and tone curves.
+#include <cmath>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <string>
@@ -12,6 +13,7 @@
 #include "Common/Image/Metrics.h"
 #include "Common/Render/Names.h"
 #include "Common/Shared/Tonemap.h"
+#include "Python/Activity.h"
 #include "Python/Arrays.h"
 #include "Python/Bindings.h"
 
@@ -23,7 +25,7 @@ namespace py = pybind11;
 py::array readArray(const std::string& file, const std::string& layer) {
     image::Image image;
     {
-        const py::gil_scoped_release released;
+        const Released released;
         image = image::readImage(file, layer);
     }
     return toArray(std::move(image));
@@ -31,7 +33,7 @@ py::array readArray(const std::string& file, const std::string& layer) {
 
 void writeArray(const std::string& file, const py::object& argument, const std::string& description) {
     const image::Image image = toImage(argument, "image");
-    const py::gil_scoped_release released;
+    const Released released;
     image::writeImage(file, image, description);
 }
 
@@ -40,7 +42,7 @@ py::dict metrics(const py::object& argument, const py::object& other) {
     const image::Image reference = toImage(other, "reference");
     image::ErrorFigures figures;
     {
-        const py::gil_scoped_release released;
+        const Released released;
         figures = image::compare(image, reference);
     }
     py::dict result;
@@ -61,7 +63,7 @@ py::array flipArray(const py::object& argument, const py::object& other, double 
                               std::string(py::str(py::float_(pixelsPerDegree))));
     image::Image map;
     {
-        const py::gil_scoped_release released;
+        const Released released;
         map = image::flipMap(image, reference, pixelsPerDegree);
     }
     return toArray(std::move(map));
@@ -75,10 +77,12 @@ py::array tonemap(const py::object& argument, double exposure, const std::string
     const image::Image image = toImage(argument, "image");
     image::Image shown;
     {
-        const py::gil_scoped_release released;
+        const Released released;
         shown = image::toImage(image::toDisplay(image, static_cast<float>(stops), row));
         if (isEncoded)
             for (float& value : shown.data) value = shared::srgbEncode(value);
+        for (float& value : shown.data) // as in a PNG file
+            if (std::isnan(value)) value = 0;
     }
     return toArray(std::move(shown));
 }

@@ -66,13 +66,15 @@ py::array lightPdfs(const Scene& scene, const py::object& index, const py::objec
     const Light& light = lightAt(scene, index);
     const Rows position(points, "points", 3);
     const Rows normal(normals, "normals", 3, Demand::UnitOr0);
-    const Rows direction(directions, "directions", 3, Demand::Unit);
+    const Rows direction(directions, "directions", 3, Demand::UnitOr0);
     const Rows time(when, "time", 0, Demand::Fraction);
     const std::size_t count = commonCount({&position, &normal, &direction, &time});
     NewFloats pdf(count);
     forEachRow(count, [&](std::size_t i) {
-        pdf.set(i, probe::lightDensity(scene, light, scene.toScene(position.vec3(i)), normal.vec3(i), time.number(i),
-                                       direction.vec3(i)));
+        const shared::vec3 d = direction.vec3(i);
+        pdf.set(i, isZero(d) ? 0.0f
+                             : probe::lightDensity(scene, light, scene.toScene(position.vec3(i)), normal.vec3(i),
+                                                   time.number(i), d));
     });
     return pdf.array;
 }
@@ -116,11 +118,13 @@ py::array lightSamplingPdfs(const Scene& scene, const py::object& points, const 
     requireLights(scene);
     const Rows position(points, "points", 3);
     const Rows normal(normals, "normals", 3, Demand::UnitOr0);
-    const Rows direction(directions, "directions", 3, Demand::Unit);
+    const Rows direction(directions, "directions", 3, Demand::UnitOr0);
     const Rows time(when, "time", 0, Demand::Fraction);
     const std::size_t count = commonCount({&position, &normal, &direction, &time});
     NewFloats pdf(count);
     forEachRow(count, [&](std::size_t i) {
+        pdf.set(i, 0.0f);
+        if (isZero(direction.vec3(i))) return;
         LightContext context = probe::contextAt(scene.toScene(position.vec3(i)), normal.vec3(i));
         probe::chooseLightAt(scene, shared::vec2(0.5f, 0.5f), context);
         pdf.set(i, probe::lightsDensity(scene, context, time.number(i), direction.vec3(i)));

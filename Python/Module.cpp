@@ -10,6 +10,7 @@
 PYBIND11_MODULE(_core, module) {
     using namespace rt::python;
     bindErrors(module);
+    bindActivities(module);
     bindFlags(module);
     bindScene(module);
     bindFilm(module);

@@ -7,6 +7,7 @@
 
 #include "Common/Probe/DirectionMap.h"
 #include "Common/Probe/PathsReport.h"
+#include "Python/Activity.h"
 #include "Python/Arrays.h"
 #include "Python/Bindings.h"
 #include "Python/Scene.h"
@@ -34,6 +35,12 @@ probe::Quantity quantityNamed(const std::string& name) {
     throw py::value_error("show: expected one of " + known + "; got " + name);
 }
 
+// Runs it to its end. Throws what SignalWatch throws.
+template <class Run>
+void finish(Run& run) {
+    for (SignalWatch watch; !run.isDone(); watch.look()) run.advance();
+}
+
 // The map and, in the scene's coordinates of the world, position, normal and wo. The pixel is one of the image's.
 py::tuple probeMap(const Scene& scene, std::uint32_t x, std::uint32_t y, const std::string& strategyName,
                    std::uint32_t height, std::uint32_t side, const std::string& show, std::uint32_t paths,
@@ -44,10 +51,14 @@ py::tuple probeMap(const Scene& scene, std::uint32_t x, std::uint32_t y, const s
     std::string why;
     probe::DirectionMap map;
     {
-        const py::gil_scoped_release released;
+        const Released released;
         at = probe::Probe::at(scene, x, y);
         if (at) why = at->whyNoDensity(strategy);
-        if (at && why.empty()) map = probe::mapOf(*at, strategy, settings, seed);
+        if (at && why.empty()) {
+            probe::MapBuilder builder(*at, strategy, settings, seed);
+            finish(builder);
+            map = builder.map();
+        }
     }
     if (!at)
         throw py::value_error("x, y: expected a pixel that shows a surface; got " + std::to_string(x) + ", " +
@@ -64,12 +75,12 @@ py::tuple probeMap(const Scene& scene, std::uint32_t x, std::uint32_t y, const s
 // What ray-tracing-image paths --json prints.
 std::string pixelPaths(const Scene& scene, std::uint32_t x, std::uint32_t y, std::uint32_t samples,
                        std::optional<std::uint32_t> selected) {
-    const py::gil_scoped_release released;
+    const Released released;
     probe::PathsSettings settings;
     settings.samples = samples;
     settings.selected = selected;
     probe::PathsRun run(scene, scene.compiled()->camera, x, y, settings);
-    while (!run.isDone()) run.advance();
+    finish(run);
     return probe::figuresOf(run.result(), {scene.compiled()->id, {x, y}, scene.options().settings}).dump();
 }
 

@@ -10,6 +10,7 @@
 #include "Common/Accel/Traverse/RayQuery.h"
 #include "Common/Shared/Camera.h"
 #include "Common/Shared/Shape/Surface.h"
+#include "Python/Activity.h"
 #include "Python/Arrays.h"
 #include "Python/Bindings.h"
 #include "Python/Scene.h"
@@ -28,7 +29,7 @@ struct RayArguments {
 
     RayArguments(const py::object& o, const py::object& d, const py::object& t, const py::object& when)
         : origins(o, "origins", 3),
-          directions(d, "directions", 3, Demand::Unit),
+          directions(d, "directions", 3, Demand::UnitOr0),
           tMax(t, "t_max", 0, Demand::Distance),
           time(when, "time", 0, Demand::Fraction),
           count(commonCount({&origins, &directions, &tMax, &time})) {}
@@ -46,6 +47,10 @@ void forEachBatch(const Scene& scene, const RayArguments& arguments, const Take&
             rays[i].direction = arguments.directions.vec3(first + i);
             rays[i].time = arguments.time.number(first + i);
             tMax[i] = std::min(arguments.tMax.number(first + i), kInfinity);
+            if (isZero(rays[i].direction)) { // which hits nothing
+                rays[i].direction = shared::vec3(0.0f, 0.0f, 1.0f);
+                tMax[i] = 0.0f;
+            }
         }
         take(first, rays.data(), tMax.data(), n);
     }
@@ -97,7 +102,7 @@ py::tuple intersect(const Scene& scene, const py::object& origins, const py::obj
     const RayArguments arguments(origins, directions, tMax, time);
     HitArrays found(arguments.count);
     {
-        const py::gil_scoped_release released;
+        const Released released;
         const accel::AccelView& accel = scene.accel();
         std::vector<Hit> hits(std::min(arguments.count, kRaysAtATime));
         forEachBatch(scene, arguments, [&](std::size_t first, const Ray* rays, const float* ends, std::size_t n) {
@@ -116,7 +121,7 @@ py::array occluded(const Scene& scene, const py::object& origins, const py::obje
     const RayArguments arguments(origins, directions, tMax, time);
     NewArray<bool> result(arguments.count);
     {
-        const py::gil_scoped_release released;
+        const Released released;
         const accel::AccelView& accel = scene.accel();
         std::vector<std::uint8_t> hits(std::min(arguments.count, kRaysAtATime));
         forEachBatch(scene, arguments, [&](std::size_t first, const Ray* rays, const float* ends, std::size_t n) {

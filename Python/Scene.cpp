@@ -9,8 +9,11 @@
 #include <utility>
 
 #include "Common/App/Session/SceneSource.h"
+#include "Common/Core/AtomicFile.h"
+#include "Common/Core/Interruption.h"
 #include "Common/Render/Stopwatch.h"
 #include "Common/Scene/Json/SceneJson.h"
+#include "Python/Activity.h"
 #include "Python/Bindings.h"
 
 namespace rt::python {
@@ -21,7 +24,7 @@ namespace {
 
 // The text of a scene file that says what `source`, an id or a file, holds.
 std::string sceneText(const std::string& source) {
-    const py::gil_scoped_release released;
+    const Released released;
     return scene::toJson(app::loadScene(source));
 }
 
@@ -30,7 +33,8 @@ app::SceneRequest requestOf(const app::Options& options, const std::string& sour
 }
 
 std::shared_ptr<Scene> compileSource(const std::string& source, const app::Options& options) {
-    const py::gil_scoped_release released;
+    const Released released;
+    const Interruptible interruptible(endOfThread());
     const app::Stopwatch watch;
     auto compiled = app::compile(requestOf(options, source));
     return std::make_shared<Scene>(std::move(compiled), options, watch.seconds());
@@ -39,10 +43,18 @@ std::shared_ptr<Scene> compileSource(const std::string& source, const app::Optio
 // Of the text of a scene file; `name` stands in errors, `folder` is where files are looked for first.
 std::shared_ptr<Scene> compileText(const std::string& text, const std::string& name, const std::string& folder,
                                    const app::Options& options) {
-    const py::gil_scoped_release released;
+    const Released released;
+    const Interruptible interruptible(endOfThread());
     const app::Stopwatch watch;
     auto compiled = app::compile(scene::parseScene(text, name, folder), requestOf(options, name));
     return std::make_shared<Scene>(std::move(compiled), options, watch.seconds());
+}
+
+void replaceFile(const std::string& file, const std::string& text) {
+    const Released released;
+    AtomicFile out(file);
+    out.stream() << text;
+    out.commit();
 }
 
 const char* kindOf(const shared::Light& light) {
@@ -99,6 +111,7 @@ void bindScene(py::module_& module) {
     module.def("scene_text", &sceneText);
     module.def("compile_source", &compileSource);
     module.def("compile_text", &compileText);
+    module.def("replace_file", &replaceFile);
     module.def("list_scenes", [] { return app::listScenes(true); });
 }
 

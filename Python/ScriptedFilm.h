@@ -27,6 +27,7 @@ class ScriptedFilm {
     std::optional<app::StopReason> advance(double seconds);
     // Ends the slice that is under way, if any, within 100 ms, and the render as Ctrl-C does.
     void cancel() { cancel_ = true; }
+    std::atomic<bool>& cancelFlag() { return cancel_; }
 
     void write(); // the files that the options name
     void save(const std::string& checkpoint);

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import collections.abc
 import json
 import os
@@ -9,11 +10,22 @@ from typing import Any, Iterator
 
 import numpy as np
 
-from . import _core, _flags
+from . import _arguments, _core, _flags
 from ._progress import Bar
 from ._scene import Scene, Source
 
 _SLICE = 0.2  # seconds between two looks at Ctrl-C and whoever calls the render off
+
+
+# Renders of daemon threads end with the interpreter, their files written, as by Ctrl-C. Windows has no fork.
+atexit.register(_core.end_activities)
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_core.forget_activities)
+
+
+def _check_cancel(cancel: Any) -> None:
+    if cancel is not None and not callable(getattr(cancel, "is_set", None)):
+        raise TypeError(f"cancel: expected an object with is_set(), as threading.Event; got {type(cancel).__name__}")
 
 
 class Aovs(collections.abc.Mapping):
@@ -24,7 +36,11 @@ class Aovs(collections.abc.Mapping):
         self._film = film
 
     def __getitem__(self, name: str) -> np.ndarray:
+        _arguments.text("aov", name)
         return self._film._picture(name, lambda: self._film._core.aov(name))
+
+    def __contains__(self, name: object) -> bool:
+        return name in _core.aov_names
 
     def __iter__(self) -> Iterator[str]:
         return iter(_core.aov_names)
@@ -57,6 +73,7 @@ class Film:
     def advance(self, seconds: float = _SLICE) -> bool:
         """Samples for about so many seconds. False: the render has ended, see stopped_by. KeyboardInterrupt leaves the
         film as it is; a failure of the device raises RenderError."""
+        seconds = _arguments.number("seconds", seconds)
         self._pictures = {}
         while self.stopped_by is None:
             self.stopped_by = self._core.advance(min(seconds, _SLICE))
@@ -73,7 +90,11 @@ class Film:
         """To the end of the render; then files that the flags name are written. progress: whether a bar shows it; None:
         in a terminal and in a notebook. cancel: an object whose is_set() tells, as threading.Event's does, that the
         render is to end. Ctrl-C writes the files of what there is and raises KeyboardInterrupt."""
-        bar = Bar(self, progress, self._is_quiet)
+        _check_cancel(cancel)
+        with _core.Activity():
+            return self._run(Bar(self, progress, self._is_quiet), cancel)
+
+    def _run(self, bar: Bar, cancel: Any) -> Film:
         try:
             while self.advance():
                 bar.update()
@@ -141,7 +162,7 @@ class Film:
     def checkpoint(self, file: str | os.PathLike[str] | None = None) -> str:
         """Writes a checkpoint, from which render(..., resume=file) goes on as if it had never stopped, bit for bit.
         Without a file it is the one that the flag checkpoint named. Returns its name."""
-        name = self._core.checkpoint_file if file is None else os.fspath(file)
+        name = self._core.checkpoint_file if file is None else _arguments.file("file", file)
         if not name:
             raise _core.UsageError("--checkpoint: checkpoint() needs a file, or this flag")
         self._core.save(name)
@@ -176,6 +197,7 @@ def render(scene: Source, engine: str = "auto", *, progress: bool | None = None,
     progress, cancel: as Film.run() takes them. Errors are UsageError, InputError, RenderError and NoDeviceError with
     the texts of the programs.
     """
+    _check_cancel(cancel)
     return Film(scene, engine, **flags).run(progress, cancel)
 
 
@@ -195,15 +217,16 @@ class Progressive:
         film = self.film
         if film.stopped_by is not None:
             raise StopIteration
-        try:
-            film.advance(self._every)
-        except KeyboardInterrupt:
-            film.interrupt()
-        if film.stopped_by is None:
-            self._bar.update()
-        else:
-            self._bar.finish()
-            film.write()
+        with _core.Activity():
+            try:
+                film.advance(self._every)
+            except KeyboardInterrupt:
+                film.interrupt()
+            if film.stopped_by is None:
+                self._bar.update()
+            else:
+                self._bar.finish()
+                film.write()
         return film
 
 
@@ -214,6 +237,7 @@ def progressive(scene: Source, engine: str = "auto", *, every: float = 0.5, prog
     Each step takes about `every` seconds and yields the film; the last one has stopped_by set. Ctrl-C during a step
     ends the loop with what there is: the film stays usable. The rest is as of render().
     """
+    every = _arguments.number("every", every)
     if not every > 0:
         raise ValueError(f"every: expected a number of seconds above 0; got {every}")
     return Progressive(Film(scene, engine, **flags), every, progress)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import functools
-import json
 import os
 from typing import Any
 
 from . import _core
+from ._arguments import is_plain
+from ._json import to_json
 
 CPU = "ray-tracing-cpu"
 GPU = "ray-tracing-gpu"
@@ -31,8 +32,6 @@ def _table(program: str) -> dict[str, _Flag]:
 def _text(value: Any) -> str:
     if isinstance(value, (bool,)):
         return "on" if value else "off"
-    if isinstance(value, dict):
-        return to_json(value)
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     if isinstance(value, (list, tuple)):
@@ -42,17 +41,11 @@ def _text(value: Any) -> str:
     return str(value)
 
 
-def _plain(value: Any) -> Any:
-    """Arrays and numbers of numpy as lists and numbers."""
-    if hasattr(value, "tolist"):
-        return value.tolist()
-    if isinstance(value, os.PathLike):
-        return os.fspath(value)
-    raise TypeError(f"a scene holds dicts, lists, texts and numbers, no {type(value).__name__}")
-
-
-def to_json(value: Any) -> str:
-    return json.dumps(value, default=_plain)
+def _said(name: str, value: Any) -> str:
+    text = f"{name}={to_json(value, name) if isinstance(value, dict) else _text(value)}"
+    if not is_plain(text):
+        raise _core.UsageError(f"{name} {value!a}: must be a text of UTF-8 without NUL")
+    return text
 
 
 def arguments(program: str, keywords: dict[str, Any]) -> list[str]:
@@ -68,9 +61,9 @@ def arguments(program: str, keywords: dict[str, Any]) -> list[str]:
                 raise _core.UsageError(f"{name} {value}: must be True or False")
             result.append(name)
         elif flag is not None and flag.is_repeatable and isinstance(value, (list, tuple)):
-            result += [f"{name}={_text(part)}" for part in value]
+            result += [_said(name, part) for part in value]
         else:
-            result.append(f"{name}={_text(value)}")
+            result.append(_said(name, value))
     if "config" not in keywords and "no_config" not in keywords:
         result.append("--no-config")  # a script renders the same on every machine
     return result

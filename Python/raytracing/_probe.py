@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import math
-import operator
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from . import _core
+from ._arguments import instance, text, whole
 from ._scene import Compiled
 
 
@@ -38,18 +38,9 @@ def cell_directions(height: int) -> np.ndarray:
                      -radius * np.sin(angle)], -1).astype(np.float32)
 
 
-def _whole(name: str, value: Any, first: int, last: int) -> int:
-    try:
-        number = operator.index(value)
-    except TypeError:
-        raise TypeError(f"{name}: expected a whole number; got {type(value).__name__}") from None
-    if not first <= number <= last:
-        raise ValueError(f"{name}: expected a whole number from {first} to {last}; got {number}")
-    return number
-
-
 def _pixel(scene: Compiled, x: Any, y: Any) -> tuple[int, int]:
-    return _whole("x", x, 0, scene.width - 1), _whole("y", y, 0, scene.height - 1)
+    instance("scene", scene, Compiled, "what Scene.compile() gives")
+    return whole("x", x, 0, scene.width - 1), whole("y", y, 0, scene.height - 1)
 
 
 def probe(scene: Compiled, x: int, y: int, strategy: str | int = "lights", height: int = 128, side: int = 4,
@@ -61,12 +52,13 @@ def probe(scene: Compiled, x: int, y: int, strategy: str | int = "lights", heigh
     "radiance", that arrives, its luminance; "product", of radiance, bsdf and cosine; "mis-weight", of a sample of the
     strategy against those of the other one. A cell's value is the mean over side * side places in it, or where rays
     are traced of as many paths, whose numbers follow from the seed. Raises ValueError where the pixel shows no surface,
-    or one without a density, as mirrors.
+    or one without a density, as mirrors. Ctrl-C ends it.
     """
     x, y = _pixel(scene, x, y)
-    height, side = _whole("height", height, 1, 4096), _whole("side", side, 1, 64)
-    paths, seed = _whole("paths", paths, 1, 65536), _whole("seed", seed, 0, 2**32 - 1)
-    values, place = _core.probe_map(scene._core, x, y, str(strategy), height, side, str(show), paths, seed)
+    height, side = whole("height", height, 1, 4096), whole("side", side, 1, 64)
+    paths, seed = whole("paths", paths, 1, 65536), whole("seed", seed, 0, 2**32 - 1)
+    strategy, show = text("strategy", str(strategy)), text("show", str(show))
+    values, place = _core.probe_map(scene._core, x, y, strategy, height, side, show, paths, seed)
     return Probe(values.reshape(height, 2 * height), cell_directions(height), *place)
 
 
@@ -77,7 +69,7 @@ def pixel_paths(scene: Compiled, x: int, y: int, samples: int = 256, sample: int
     that one, as "selected".
     """
     x, y = _pixel(scene, x, y)
-    samples = _whole("samples", samples, 1, 1 << 20)
+    samples = whole("samples", samples, 1, 1 << 20)
     if sample is not None:
-        sample = _whole("sample", sample, 0, samples - 1)
+        sample = whole("sample", sample, 0, samples - 1)
     return json.loads(_core.pixel_paths(scene._core, x, y, samples, sample))

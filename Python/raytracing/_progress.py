@@ -30,8 +30,10 @@ class Bar:
     def __init__(self, film: Film, wanted: bool | None, is_quiet: bool) -> None:
         self._film = film
         self._notebook = _notebook()
-        looks = self._notebook is not None or sys.stderr.isatty()
-        self._is_shown = looks and not is_quiet if wanted is None else wanted
+        has_terminal = sys.stderr is not None and sys.stderr.isatty()  # None: a program without a console
+        looks = self._notebook is not None or has_terminal
+        can_show = self._notebook is not None or sys.stderr is not None
+        self._is_shown = looks and not is_quiet if wanted is None else bool(wanted) and can_show
         self._next = 0.0
         self._length = 0
         self._handle: Any = None

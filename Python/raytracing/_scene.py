@@ -12,7 +12,8 @@ from typing import Any, Iterator, NamedTuple, Union
 
 import numpy as np
 
-from . import _core, _flags
+from . import _arguments, _core, _flags
+from ._json import to_json
 
 Source = Union[str, "os.PathLike[str]", dict, "Scene"]
 _ORIGIN = np.zeros(3, np.float32)
@@ -39,7 +40,8 @@ class Hits(NamedTuple):
 
 
 class LightSamples(NamedTuple):
-    """Directions to a light from N points. pdf 0: the light cannot contribute there, and all else is 0."""
+    """Directions to a light from N points. pdf 0: the light cannot contribute there, and all else is 0, the direction,
+    too, in which no ray hits anything, no density and no value is above 0."""
 
     direction: np.ndarray  #: (N, 3) unit, from the point to the light
     distance: np.ndarray  #: (N,) world units; infinite: the sky, or a directional light
@@ -63,8 +65,10 @@ class Compiled:
     """A scene as renderers see it: arrays of records in single precision. It does not change any more.
 
     Arrays are float32, C-contiguous and finite. One row, such as a single point of shape (3,), stands for as many as
-    the other arguments have. Points are in world units; directions and normals have length 1; random numbers lie in
-    [0, 1). Formulas are those of the renderers, Common/Shared, with their sources.
+    the other arguments have. Points are in world units; random numbers lie in [0, 1). Directions and normals have
+    length 1, or 0 for none, as those of a light that cannot be sampled, of rays that hit nothing and of what was
+    absorbed: a direction that is none hits nothing, and its densities and values are 0. Formulas are those of the
+    renderers, Common/Shared, with their sources.
     """
 
     def __init__(self, core: _core.Compiled) -> None:
@@ -204,7 +208,9 @@ class Scene(collections.abc.MutableMapping):
         elif isinstance(source, dict):
             self._data = source
         else:
-            self._source = self._name = os.fspath(source)
+            if not isinstance(source, (str, bytes, os.PathLike)):
+                raise TypeError(f"scene: expected an id, a file, a dict or a Scene; got {type(source).__name__}")
+            self._source = self._name = _arguments.file("scene", source)
             if os.path.exists(self._source):
                 self._folder = os.path.dirname(os.path.abspath(self._source))
 
@@ -234,9 +240,10 @@ class Scene(collections.abc.MutableMapping):
         return f"<raytracing.Scene {self._name!r}>"
 
     def save(self, file: str | os.PathLike[str]) -> None:
-        """Writes a scene file."""
-        with open(file, "w", encoding="utf-8") as out:
-            out.write(json.dumps(json.loads(_flags.to_json(self.data)), indent=2) + "\n")
+        """Writes a scene file; what was there stays unless all of it can be written. Raises TypeError, or InputError,
+        naming the place in the scene, RenderError for the file."""
+        text = json.dumps(json.loads(to_json(self.data, self._name)), indent=2) + "\n"
+        _core.replace_file(_arguments.file("file", file), text)
 
     def compile(self, **flags: Any) -> Compiled:
         """The scene as it is now, for the flags that render() takes: the camera, the size of the image, strategies of
@@ -245,7 +252,7 @@ class Scene(collections.abc.MutableMapping):
         return Compiled(self._compile(_flags.options("cpu", flags)))
 
     def _compile(self, options: _core.Options) -> _core.Compiled:
-        text = None if self._data is None else _flags.to_json(self._data)
+        text = None if self._data is None else to_json(self._data, self._name)
         key = (text, options.one_sided_lights, options.camera, options.assets_below)
         if self._last is not None and self._last[0] == key:
             return self._last[1].with_options(options)
@@ -262,11 +269,11 @@ class Scene(collections.abc.MutableMapping):
 
 def load(source: Source) -> Scene:
     """A scene: the id of a built-in one (see scenes()), a file (.json, .obj, .gltf, .glb, .pbrt), or a dict that is
-    laid out like a scene file. A dict is not copied: edit it, or the scene, and render again. A name that is neither an id nor a
-    file is an error at once; what is in a file or a dict is read when it is needed."""
+    laid out like a scene file. A dict is not copied: edit it, or the scene, and render again. A name that is neither an
+    id nor a file is an error at once; what is in a file or a dict is read when it is needed."""
     scene = Scene(source)
-    is_name = isinstance(source, (str, os.PathLike)) and not os.path.exists(source)
-    if is_name and not any(row["id"] == source for row in scenes()):
+    is_name = scene._source is not None and not os.path.isfile(scene._source)
+    if is_name and not any(row["id"] == scene._source for row in scenes()):
         scene.compile()
     return scene
 
@@ -280,7 +287,9 @@ def light(shape: dict[str, Any], emission: Any = (1.0, 1.0, 1.0), sides: str = "
     """A scene of one light: shape is an object of a scene file without its material, such as {"type": "sphere",
     "center": [0, 2, 0], "radius": 1}. sample_light(0, ...) and light_pdf(0, ...) sample it; a mesh has a light for each
     triangle."""
-    lamp = {"type": "emitter", "emission": list(emission), "sides": sides}
+    _arguments.instance("shape", shape, collections.abc.Mapping, "a dict, an object of a scene file")
+    _arguments.instance("emission", emission, (list, tuple, np.ndarray), "three numbers")
+    lamp = {"type": "emitter", "emission": emission, "sides": sides}
     data = {"materials": {"lamp": lamp}, "objects": [{**shape, "material": "lamp"}]}
     return Scene(data, "light").compile(**flags)
 
@@ -288,8 +297,9 @@ def light(shape: dict[str, Any], emission: Any = (1.0, 1.0, 1.0), sides: str = "
 def material(description: dict[str, Any], textures: dict[str, Any] | None = None, **flags: Any) -> Compiled:
     """A scene of one surface: description is a material of a scene file, such as {"type": "metal", "albedo": [0.8, 0.8,
     0.8], "fuzz": 0.1}. sample_bsdf("material", ...) and eval_bsdf("material", ...) scatter at it."""
+    _arguments.instance("description", description, collections.abc.Mapping, "a dict, a material of a scene file")
     quad = {"type": "quad", "corner": [0, 0, -1], "edge_u": [1, 0, 0], "edge_v": [0, 1, 0], "material": "material"}
-    data = {"textures": textures or {}, "materials": {"material": description}, "objects": [quad]}
+    data = {"textures": textures or {}, "materials": {"material": dict(description)}, "objects": [quad]}
     return Scene(data, "material").compile(**flags)
 
 

@@ -3,6 +3,8 @@
 import os
 import pathlib
 import subprocess
+import sys
+import textwrap
 
 import numpy as np
 
@@ -19,6 +21,12 @@ def run_program(name, *arguments):
 def error_of(name, *arguments):
     """The line with which a program ends, without its name."""
     return run_program(name, *arguments).stderr.strip().splitlines()[-1].split(": ", 1)[1]
+
+
+def run_script(text, **kwargs):
+    """A process of Python that runs a text, which may be indented."""
+    return subprocess.Popen([sys.executable, "-c", textwrap.dedent(text)], stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True, **kwargs)
 
 
 def numbers(count, width, seed=1):

@@ -67,6 +67,16 @@ class Metrics(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "^pixels_per_degree: "):
             rt.flip(black, white, 0)
 
+    def test_flip_of_one_channel_is_that_of_grey(self):
+        def flips(image, reference):
+            return rt.flip_map(np.ascontiguousarray(image), np.ascontiguousarray(reference))
+
+        image, reference = picture(1, 1)[..., 0], picture(2, 1)[..., 0]
+        grey = flips(image, reference)
+        np.testing.assert_array_equal(grey, flips(*(np.stack([i] * 3, -1) for i in (image, reference))))
+        self.assertGreater(grey.min(), 0)
+        self.assertEqual(flips(image, image).max(), 0)
+
     def test_sizes_that_differ(self):
         with self.assertRaises(rt.InputError):
             rt.metrics(picture(), picture()[:5].copy())
@@ -88,6 +98,26 @@ class ToneCurves(unittest.TestCase):
                 self.assertTrue(((shown >= 0) & (shown <= 1)).all())
         with self.assertRaisesRegex(rt.UsageError, "^--tonemap filmic: must be"):
             rt.tonemap(ramp, curve="filmic")
+
+    def test_not_a_number_is_black(self):
+        image = np.full((2, 2, 3), np.nan, np.float32)
+        image[0] = 0.5
+        for curve in ("none", "reinhard", "aces", "agx", "neutral"):
+            for encode in (True, False):
+                shown = rt.tonemap(image, curve=curve, encode=encode)
+                self.assertEqual((shown[1].min(), shown[1].max()), (0, 0))
+                self.assertGreater(shown[0].min(), 0)
+
+    def test_arguments(self):
+        image = np.ones((2, 2, 3), np.float32)
+        for call, error in ((lambda: rt.tonemap(image, exposure=None), "^exposure: expected a number; got NoneType$"),
+                            (lambda: rt.tonemap(image, curve=None), "^curve: expected a text; got NoneType$"),
+                            (lambda: rt.flip(image, image, "a"), "^pixels_per_degree: expected a number; got str$"),
+                            (lambda: rt.write_image(None, image), "^file: expected the name of a file; got NoneType$"),
+                            (lambda: rt.write_image("never.png", image, "\ud800"), "^description: expected a text of "),
+                            (lambda: rt.write_image("a\0b.png", image), "^file: expected a text of UTF-8 without NUL")):
+            with self.assertRaisesRegex((TypeError, ValueError), error):
+                call()
 
     def test_auto_exposure(self):
         grey = np.full((8, 8, 3), 0.18, np.float32)

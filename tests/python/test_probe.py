@@ -95,6 +95,11 @@ class Probes(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             np.testing.assert_array_equal(rt.read_image(output), rt.probe(self.scene, 20, 20, "mis").map)
 
+    def test_what_is_no_scene(self):
+        for call in (rt.probe, rt.pixel_paths):
+            with self.assertRaisesRegex(TypeError, r"^scene: expected what Scene.compile\(\) gives; got str$"):
+                call("cornell-box-lights", 1, 1)
+
     def test_what_is_no_place(self):
         with self.assertRaisesRegex(ValueError, "^x, y: expected a pixel that shows a surface"):
             rt.probe(self.scene, 0, 0)

@@ -1,13 +1,8 @@
 """Renders are those of the programs, with their texts; they can be watched, called off, and gone on with."""
 
 import json
-import os
 import pathlib
-import signal
-import subprocess
-import sys
 import tempfile
-import textwrap
 import threading
 import time
 import unittest
@@ -15,7 +10,7 @@ import unittest
 import numpy as np
 
 import raytracing as rt
-from support import error_of, run_program
+from support import error_of, run_program, run_script
 
 SMALL = dict(width=40, spp=8, progress=False)
 
@@ -123,6 +118,20 @@ class SameAsTheProgram(unittest.TestCase):
                 rt.render("cornell-box-lights", "cpu", **keywords)
         with self.assertRaisesRegex(rt.UsageError, "^engine fast: must be auto, cpu, gpu, multi"):
             rt.render("cornell-box-lights", "fast")
+
+    def test_arguments(self):
+        film = rt.Film("cornell-box-lights", "cpu", width=8, spp=1)
+        for call, error in ((lambda: film.aov[None], "^aov: expected a text; got NoneType$"),
+                            (lambda: film.advance("a"), "^seconds: expected a number; got str$"),
+                            (lambda: film.checkpoint("a\0b"), "^file: expected a text of UTF-8 without NUL"),
+                            (lambda: rt.progressive("cornell-box-lights", every="a"), "^every: expected a number; "),
+                            (lambda: film.run(cancel=5), r"^cancel: expected an object with is_set\(\), .*; got int$"),
+                            (lambda: rt.render("cornell-box-lights", output="a\0b.png"),
+                             r"^--output 'a\\x00b.png': must be a text of UTF-8 without NUL$")):
+            with self.assertRaisesRegex((TypeError, ValueError), error):
+                call()
+        self.assertEqual(film.progress, 0)
+        self.assertNotIn("nothing", film.aov)
 
     def test_checkpoint(self):
         whole = rt.render("cornell-box-lights", "cpu", width=40, spp=40, progress=False)
@@ -237,45 +246,17 @@ NOTEBOOK = """
 """
 
 
-def run_script(text, **kwargs):
-    return subprocess.Popen([sys.executable, "-c", textwrap.dedent(text)], stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE, text=True, **kwargs)
-
-
-@unittest.skipIf(os.name == "nt", "signals of POSIX")
-class Interrupted(unittest.TestCase):
-    def interrupt(self, text):
-        script = run_script(text)
-        self.assertEqual(script.stdout.readline(), "begun\n")
-        time.sleep(0.5)
-        script.send_signal(signal.SIGINT)
-        out, err = script.communicate(timeout=120)
-        return script.returncode, out, err
-
-    def test_render_raises(self):
-        code, out, err = self.interrupt("""
-            import raytracing
-            try:
-                print("begun", flush=True)
-                raytracing.render("cornell-box-lights", "cpu", spp=10**8, progress=False)
-            except KeyboardInterrupt:
-                print("interrupted")
-        """)
-        self.assertEqual((code, out), (0, "interrupted\n"), err)
-
-    def test_progressive_ends(self):
-        code, out, err = self.interrupt("""
-            import raytracing
-            steps = raytracing.progressive("cornell-box-lights", "cpu", spp=10**8, width=100, progress=False, every=0.1)
-            for step, film in enumerate(steps):
-                if step == 0:
-                    print("begun", flush=True)
-            print(film.stopped_by, film.image.mean() > 0)
-        """)
-        self.assertEqual((code, out), (0, "interrupted True\n"), err)
-
-
 class Bars(unittest.TestCase):
+    def test_without_a_place_for_it(self):
+        script = run_script("""
+            import sys, raytracing
+            sys.stderr = None
+            for progress in (True, None):
+                raytracing.render("cornell-box-lights", "cpu", spp=1, width=8, progress=progress)
+            print("done")
+        """)
+        self.assertEqual(script.communicate(timeout=120), ("done\n", ""))
+
     def test_no_terminal_no_bar(self):
         script = run_script("""
             import raytracing

@@ -2,12 +2,13 @@
 
 import itertools
 import math
+import re
 import unittest
 
 import numpy as np
 
 import raytracing as rt
-from support import numbers, sphere_directions, stratified, unit, vector
+from support import SOURCE, numbers, sphere_directions, stratified, unit, vector
 
 SIDE = 512  # strata a side, for integrals over directions
 SPHERE_PDF = 1 / (4 * math.pi)
@@ -118,6 +119,40 @@ class Lights(unittest.TestCase):
         for p, q in ((n[0], n[1]), (n[1], n[2]), (n[2], n[0])):
             self.assertGreater((side * (np.cross(p, q) * direction).sum(1)).min(), -1e-5)
 
+    def test_triangles_of_any_size(self):
+        a, b, c, u = vector(1, 0.1, 0), vector(0, 1, 0.2), vector(0.1, 0, 1), numbers(8, 2)
+        angle = rt.triangle_solid_angle(a, b, c)
+        direction, pdf = rt.sample_spherical_triangle(a, b, c, u)
+        for size in (2.0**-120, 2.0**-60, 2.0**66, 2.0**126):
+            factor = np.float32(size)
+            np.testing.assert_array_equal(rt.triangle_solid_angle(a * factor, b * factor, c * factor), angle)
+            scaled, density = rt.sample_spherical_triangle(a * factor, b * factor, c * factor, u)
+            np.testing.assert_array_equal(scaled, direction)
+            np.testing.assert_array_equal(density, pdf)
+            # One vertex elsewhere on its ray.
+            np.testing.assert_allclose(rt.triangle_solid_angle(a, b * factor, c), angle, rtol=1e-5)
+
+    def test_triangles_without_a_solid_angle(self):
+        zero, a, b = vector(0, 0, 0), vector(1, 0, 0), vector(0, 1, 0)
+        for corners in ((zero, a, b), (a, zero, b), (a, b, zero), (zero, zero, zero), (a, a, a), (a, b, a)):
+            for size in (1, 1e-45, 3e38):
+                sized = [corner * np.float32(size) for corner in corners]
+                self.assertEqual(rt.triangle_solid_angle(*sized), 0)
+                direction, pdf = rt.sample_spherical_triangle(*sized, numbers(20, 2))
+                self.assertEqual((np.abs(direction).max(), np.abs(pdf).max()), (0, 0))
+
+    def test_triangles_of_any_numbers(self):
+        random = np.random.default_rng(4)
+        numbers_of = np.float32([0, -0.0, 1, -1, 0.5, 1e-45, -1e-38, 1e-30, 1e-20, 1e-10, 1e10, 1e20, -1e30, 3.4e38])
+        a, b, c = random.choice(numbers_of, (3, 5000, 3))
+        angle = rt.triangle_solid_angle(a, b, c)
+        direction, pdf = rt.sample_spherical_triangle(a, b, c, numbers(5000, 2))
+        self.assertTrue(((angle >= 0) & (angle < 2 * math.pi + 1e-5)).all())
+        self.assertTrue((np.isfinite(direction).all(1) & (pdf >= 0)).all())
+        length = np.linalg.norm(direction, axis=1)
+        np.testing.assert_allclose(length[pdf > 0], 1, atol=1e-4)
+        self.assertEqual(length[pdf == 0].max(), 0)
+
     def test_spherical_triangle_is_uniform(self):
         a, b, c = vector(1, 0.1, 0), vector(0, 1, 0.2), vector(0.1, 0, 1)
         direction, _ = rt.sample_spherical_triangle(a, b, c, stratified(300))
@@ -200,6 +235,44 @@ class Bsdfs(unittest.TestCase):
         expected = np.maximum(wi[:, 2], 0) / math.pi
         np.testing.assert_allclose(value, np.repeat(expected[:, None], 3, 1), atol=1e-6)
         np.testing.assert_allclose(pdf, expected, atol=1e-6)
+
+
+class Nothing(unittest.TestCase):
+    """Rows that functions give for what there is none of are rows that the others take."""
+
+    def test_directions_and_normals_of_zero(self):
+        scene = rt.load("cornell-box-lights").compile(width=16)
+        up, none = unit(0, 1, 0), vector(0, 0, 0)
+        points = np.tile(vector(278, 100, 278), (3, 1))
+        rows = np.array([up, none, up])
+        for pdf in (scene.light_pdf(0, points, up, rows), scene.light_sampling_pdf(points, up, rows)):
+            self.assertTrue(np.isfinite(pdf).all())
+            self.assertEqual(pdf[1], 0)
+        self.assertGreater(scene.light_sampling_pdf(points, up, rows)[0], 0)
+        for normals, wo, wi in ((rows, up, up), (up, rows, up), (up, up, rows)):
+            value, pdf = scene.eval_bsdf("white", normals, wo, wi)
+            self.assertEqual((value[1].tolist(), pdf[1]), ([0, 0, 0], 0))
+            self.assertGreater(pdf[[0, 2]].min(), 0)
+        for normals, wo in ((rows, up), (up, rows)):
+            drawn = scene.sample_bsdf("white", normals, wo, numbers(3, 2))
+            self.assertEqual([float(np.abs(part[1]).max()) for part in drawn], [0] * 5)
+            self.assertGreater(drawn.pdf[[0, 2]].min(), 0)
+        self.assertEqual(scene.occluded(points, rows).tolist(), [True, False, True])
+        self.assertEqual(scene.intersect(points, rows).kind.tolist()[1], -1)
+        with self.assertRaisesRegex(ValueError, r"^directions: expected vectors of length 1 or 0; got .* in row 1$"):
+            scene.light_pdf(0, points, up, np.array([up, 0.5 * up, up]))
+
+    def test_formulas_of_the_guide(self):
+        text = (SOURCE / "docs" / "python.md").read_text(encoding="utf-8")
+        (block,) = re.findall(r"```python\n(import raytracing\n)?(box = .*?)```", text, re.S)
+        count = 64
+        up = np.tile(unit(0, 1, 0), (count, 1))
+        given = {"raytracing": rt, "x": np.arange(count, dtype=np.uint32) % 8 * 8, "u": numbers(count, 2),
+                 "y": np.arange(count, dtype=np.uint32), "to_light": up, "distance": 100.0, "points": np.zeros_like(up),
+                 "normals": up, "directions": up, "wo": up, "wi": up, "pixel": 0, "sample": 0, "dimension": 0}
+        exec(block[1], given)
+        self.assertLess(given["s"].pdf.min(), 1e-9)  # there are rows with nothing to sample
+        self.assertGreater(given["s"].pdf.max(), 0)
 
 
 class Samplers(unittest.TestCase):

@@ -1,6 +1,7 @@
 """Scenes are nested dicts that can be edited and compiled again."""
 
 import json
+import math
 import os
 import pathlib
 import tempfile
@@ -73,6 +74,73 @@ class Scenes(unittest.TestCase):
             np.testing.assert_array_equal(rt.render(again, "cpu", **SMALL).image,
                                           rt.render("cornell-box-lights", "cpu", **SMALL).image)
 
+    def test_a_file_outlives_what_cannot_be_saved(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "a.json"
+            rt.load("cornell-box-lights").save(file)
+            before = file.read_text()
+            for value, error, place in ((object(), TypeError, "a scene holds dicts"),
+                                        (float("nan"), rt.InputError, "must be a finite number; got nan"),
+                                        (-math.inf, rt.InputError, "must be a finite number; got -inf"),
+                                        (np.float32("nan"), rt.InputError, "must be a finite number; got nan")):
+                scene = rt.load(file)
+                scene["objects"][0]["radius"] = value
+                with self.assertRaisesRegex(error, f"^{file}: /objects/0/radius: {place}"):
+                    scene.save(file)
+                self.assertEqual(file.read_text(), before)
+            self.assertEqual(os.listdir(folder), ["a.json"])
+            with self.assertRaisesRegex(rt.RenderError, "no/a.json"):
+                rt.load(file).save(pathlib.Path(folder) / "no" / "a.json")
+
+    def test_what_no_scene_file_can_hold(self):
+        def fault(change):
+            data = json.loads(json.dumps(rt.load("cornell-box-lights").data))
+            change(data)
+            with self.assertRaises((TypeError, rt.InputError)) as caught:
+                rt.load(data).compile()
+            self.assertNotIn("\n", str(caught.exception))
+            return str(caught.exception)
+
+        def deepen(data):
+            for _ in range(100000):
+                data["a"] = data = {}
+
+        self.assertEqual(fault(lambda d: d["objects"][0].update(radius=math.nan)),
+                         "scene: /objects/0/radius: must be a finite number; got nan")
+        self.assertEqual(fault(lambda d: d["camera"].update(look_from=np.array([0, np.inf, 0]))),
+                         "scene: /camera/look_from/1: must be a finite number; got inf")
+        self.assertEqual(fault(lambda d: d["objects"][0].update(more=d["objects"])),
+                         "scene: /objects/0/more: must not contain itself")
+        self.assertEqual(fault(lambda d: d["objects"][0].update({(1, 2): 3})),
+                         "scene: /objects/0: names are texts, no tuple")
+        self.assertRegex(fault(deepen), "^scene: /a/a/.*: values are nested deeper than 256$")
+        self.assertEqual(rt.InputError("").exit_code, 3)
+
+    def test_what_is_no_source(self):
+        for source in (None, 5, ["a"]):
+            with self.assertRaisesRegex(TypeError, "^scene: expected an id, a file, a dict or a Scene; got "):
+                rt.load(source)
+        for source in ("a\ud800.json", "cornell-box-lights\0x"):
+            with self.assertRaisesRegex(ValueError, "^scene: expected a text of UTF-8 without NUL; got '[ -~]*'$"):
+                rt.load(source)
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaisesRegex(rt.InputError, '": is a folder; allowed is an id'):
+                rt.load(folder)
+            other = pathlib.Path(folder) / "a.txt"
+            other.write_text("furnace")
+            with self.assertRaisesRegex(rt.InputError, '": is no file of a known kind; allowed is an id'):
+                rt.load(other).compile()
+            self.assertRegex(error_of("ray-tracing-image", "probe", folder, "1,1"), "is a folder; allowed is an id")
+
+    def test_lights_and_materials_by_themselves(self):
+        ball = {"type": "sphere", "center": [0, 2, 0], "radius": 1}
+        for call, error in ((lambda: rt.light(None), "^shape: expected a dict, .*; got NoneType$"),
+                            (lambda: rt.light(ball, emission=5), "^emission: expected three numbers; got int$"),
+                            (lambda: rt.material(None), "^description: expected a dict, .*; got NoneType$")):
+            with self.assertRaisesRegex(TypeError, error):
+                call()
+        self.assertEqual(rt.light(ball, np.full(3, 2.0)).lights[0]["emission"], (2, 2, 2))
+
     def test_files_beside_a_scene_file(self):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "a.json"
@@ -99,7 +167,6 @@ class Scenes(unittest.TestCase):
             (lambda d: d.update(nonsense=1), "nonsense"),
             (lambda d: d["objects"].append({"type": "sphere", "center": [0, 0, 0], "radius": -1, "material": "white"}),
              "radius"),
-            (lambda d: d["camera"].update(look_from=[0, float("nan"), 0]), "scene"),
             (lambda d: d.pop("objects"), "objects"),
         ]
         for change, place in changes:
