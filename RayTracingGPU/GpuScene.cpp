@@ -110,8 +110,8 @@ void GpuScene::buildTree(vulkan::VulkanContext& context, const std::atomic<bool>
         return buffer->address();
     };
     const accel::TreeCounts& kept = t.placed.counts;
-    tree_.nodes = add(t.nodes, t.isWide ? 0 : kept.nodes, "the tree");
-    tree_.wideNodes = add(t.wideNodes, t.isWide ? kept.nodes : 0, "the tree");
+    tree_.nodes = add(t.nodes, t.placed.isWide ? 0 : kept.nodes, "the tree");
+    tree_.wideNodes = add(t.wideNodes, t.placed.isWide ? kept.nodes : 0, "the tree");
     tree_.spheres = add(t.spheres, kept.spheres, "the tree's spheres");
     tree_.sphereMotions = add(t.sphereMotions, input.motions.empty() ? 0 : kept.spheres, "the tree's motion");
     tree_.sphereIndices = add(t.sphereIndices, kept.spheres, "the tree's spheres");

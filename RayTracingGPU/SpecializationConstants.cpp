@@ -59,7 +59,7 @@ TraversalShape traversalShape(const accel::GpuBvh& bvh) {
     constexpr std::uint32_t kDepthStep = 4; // so that scenes of nearly the same depth share a pipeline
     TraversalShape shape;
     shape.treeDepth = bvh.isLinear ? 0 : (bvh.trees.depth + kDepthStep - 1) / kDepthStep * kDepthStep;
-    shape.treeIsWide = bvh.trees.isWide ? 1 : 0;
+    shape.treeIsWide = bvh.trees.placed.isWide ? 1 : 0;
     shape.isLinear = bvh.isLinear ? 1 : 0;
     shape.listedSpheres = bvh.lists.spheres;
     shape.listedAxisQuads = bvh.lists.axisQuads;

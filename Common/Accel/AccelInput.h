@@ -1,6 +1,7 @@
 // What every acceleration structure is built over, whichever engine traverses it.
 #pragma once
 #include <span>
+#include <vector>
 
 #include "Common/Shared/Base/Types.h"
 
@@ -17,6 +18,13 @@ struct AccelInput {
     std::span<const shared::Instance> instances;
     std::span<const shared::Round> rounds{};
 };
+
+// Of each geometry whether an instance places it.
+inline std::vector<bool> placedGeometries(const AccelInput& input) {
+    std::vector<bool> placed(input.geometries.size(), false);
+    for (const shared::Instance& instance : input.instances) placed[instance.geometry] = true;
+    return placed;
+}
 
 // Of a compiled scene.
 template <class Scene>

@@ -168,7 +168,6 @@ class Flattener {
             placed.depths.resize(input.geometries.size(), 0);
         }
         base_ = placed.counts;
-        trees_.isWide = placed.isWide;
         roots_ = placed.roots;
         depths_ = placed.depths;
     }
@@ -306,7 +305,7 @@ void Flattener::add(const SceneTree& tree) {
     if (nodes[0].isLeaf()) {
         roots_[tree.geometry] = addLeaf(tree, nodes[0]);
         depths_[tree.geometry] = depthBelow(tree, nodes[0]);
-    } else if (trees_.isWide) {
+    } else if (trees_.placed.isWide) {
         const Collapse<4> collapse(tree.bvh, 0.0f, [&](std::uint32_t node) { return nodes[node].isLeaf(); });
         addNodes(tree, trees_.wideNodes, [&](std::uint32_t node) { return collapse.children(node); });
     } else {

@@ -26,7 +26,7 @@ struct TreeCounts {
 
 // The trees of all geometries but the world's, and what the world's has to know of them.
 struct PlacedTrees {
-    bool isWide = false;
+    bool isWide = false;               // wideNodes instead of nodes, also of the world
     TreeCounts counts;                 // they are the first of the arrays
     std::vector<std::uint32_t> roots;  // of each geometry
     std::vector<std::uint32_t> depths; // of each geometry: references that a traversal of it has to remember
@@ -35,8 +35,7 @@ struct PlacedTrees {
 
 // The trees of all geometries, appended to the same arrays, the world's last.
 struct GpuTrees {
-    bool isWide = false; // wideNodes instead of nodes
-    std::vector<shared::TreeNode> nodes;
+    std::vector<shared::TreeNode> nodes; // or the next, as placed.isWide says
     std::vector<shared::WideTreeNode> wideNodes;
     std::vector<shared::vec4> spheres;        // center, radius; that is negative for near spheres
     std::vector<shared::vec4> sphereMotions;  // of each of them; empty: nothing moves

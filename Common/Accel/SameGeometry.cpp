@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <vector>
 
 #include "Common/Accel/Build/TreeItems.h"
 #include "Common/Core/Parallel.h"
@@ -22,13 +21,6 @@ bool sameTriangle(const AccelInput& a, shared::uvec3 ofA, const AccelInput& b, s
     for (int corner = 0; corner < 3; ++corner)
         if (!sameBytes(a.positions[ofA[corner]], b.positions[ofB[corner]])) return false;
     return true;
-}
-
-// Of each geometry whether an instance places it.
-std::vector<bool> placedGeometries(const AccelInput& input) {
-    std::vector<bool> placed(input.geometries.size(), false);
-    for (const shared::Instance& instance : input.instances) placed[instance.geometry] = true;
-    return placed;
 }
 
 } // namespace

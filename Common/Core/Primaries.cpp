@@ -29,6 +29,12 @@ dmat3 adaptation(const dvec3& from, const dvec3& to) {
     return glm::inverse(cones) * dmat3(ratio.x, 0, 0, 0, ratio.y, 0, 0, 0, ratio.z) * cones;
 }
 
+// A Gaussian that is wider on one side.
+double lobe(double nm, double middle, double below, double above) {
+    const double t = (nm - middle) / (nm < middle ? below : above);
+    return std::exp(-0.5 * t * t);
+}
+
 } // namespace
 
 bool areSame(const Primaries& a, const Primaries& b) {
@@ -54,6 +60,13 @@ std::optional<dmat3> toXyz(const Primaries& p) {
 
 dmat3 xyzToRec709() {
     return glm::inverse(*toXyz(kRec709));
+}
+
+dvec3 colorMatching(double nm) {
+    return {
+        1.056 * lobe(nm, 599.8, 37.9, 31.0) + 0.362 * lobe(nm, 442.0, 16.0, 26.7) - 0.065 * lobe(nm, 501.1, 20.4, 26.2),
+        0.821 * lobe(nm, 568.8, 46.9, 40.5) + 0.286 * lobe(nm, 530.9, 16.3, 31.1),
+        1.217 * lobe(nm, 437.0, 11.8, 36.0) + 0.681 * lobe(nm, 459.0, 26.0, 13.8)};
 }
 
 std::optional<dmat3> toRec709(const Primaries& primaries, White white) {

@@ -27,4 +27,8 @@ enum class White { Kept, Adapted };
 std::optional<glm::dmat3> toRec709(const Primaries& primaries, White white);
 glm::dmat3 xyzToRec709();
 
+// CIE 1931's X, Y, Z of light at a wavelength in nm, fitted: C. Wyman, P.-P. Sloan, P. Shirley, Simple Analytic
+// Approximations to the CIE XYZ Color Matching Functions, JCGT 2(2), 2013, equation 4.
+glm::dvec3 colorMatching(double nm);
+
 } // namespace rt

@@ -55,22 +55,10 @@ SolarLine solarLine(double wavelength) {
     return {wavelength, a.irradiance + part * (b.irradiance - a.irradiance), a.ozone + part * (b.ozone - a.ozone)};
 }
 
-// The colour matching functions of the CIE, 1931, of a wavelength in nm: C. Wyman, P.-P. Sloan, P. Shirley, Simple
-// Analytic Approximations to the CIE XYZ Color Matching Functions, 2013, their fits of several lobes.
-glm::dvec3 colorMatching(double wavelength) {
-    const auto lobe = [wavelength](double middle, double below, double above) {
-        const double t = (wavelength - middle) / (wavelength < middle ? below : above);
-        return std::exp(-0.5 * t * t);
-    };
-    return {1.056 * lobe(599.8, 37.9, 31.0) + 0.362 * lobe(442.0, 16.0, 26.7) - 0.065 * lobe(501.1, 20.4, 26.2),
-            0.821 * lobe(568.8, 46.9, 40.5) + 0.286 * lobe(530.9, 16.3, 31.1),
-            1.217 * lobe(437.0, 11.8, 36.0) + 0.681 * lobe(459.0, 26.0, 13.8)};
-}
-
-// Tristimulus values of sunlight on the ground; Y in lx. Bird and Riordan's transmittances by Rayleigh scattering (2-4),
-// aerosols (2-6, 2-7) and ozone (2-9, 2-10), with the air mass of Kasten (2-5); the aerosols' amount by turbidity, their
-// exponent and the 0.35 cm of ozone are those of Preetham et al. (appendix A.1). Water vapour and oxygen absorb next to
-// nothing of what is visible, and are left out.
+// Tristimulus values of sunlight on the ground; Y in lx. Bird and Riordan's transmittances by Rayleigh scattering
+// (2-4), aerosols (2-6, 2-7) and ozone (2-9, 2-10), with the air mass of Kasten (2-5); the aerosols' amount by
+// turbidity, their exponent and the 0.35 cm of ozone are those of Preetham et al. (appendix A.1). Water vapour and
+// oxygen absorb next to nothing of what is visible, and are left out.
 glm::dvec3 sunlight(double zenithDegrees, double turbidity) {
     constexpr double kLumens = 683, kOzone = 0.35, kOzoneHeight = 22.0 / 6370, kAerosolExponent = 1.3;
     const double cosine = std::max(std::cos(glm::radians(zenithDegrees)), 0.0);

@@ -33,6 +33,10 @@ std::shared_ptr<const scene::CompiledScene> smallScene(const scene::BuiltinScene
     return app::compile(app::loadScene(id), true);
 }
 
+std::shared_ptr<const scene::CompiledScene> sceneOfFile(const std::string& name) {
+    return app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/" + name + ".json"), true, true);
+}
+
 app::RenderSettings pairSettings(std::uint32_t spp) {
     app::RenderSettings settings;
     settings.width = kPictureSide;
@@ -253,7 +257,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, EllipsoidAgreementTest, kFirstEngine, engineNa
 INSTANTIATE_TEST_SUITE_P(Nightly, EllipsoidAgreementTest, kSecondEngine, engineName);
 
 TEST_P(EllipsoidAgreementTest, SampleForSample) {
-    const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/ellipsoid-lights.json"), true, true);
+    const auto scene = sceneOfFile("ellipsoid-lights");
     EnginePair engines(scene, GetParam());
     for (const app::RenderSettings& settings : allEstimators(pairSettings(1))) {
         // How a point on an ellipsoid is drawn and weighed is no matter of how the ellipsoid was chosen.
@@ -276,7 +280,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, PrincipledAgreementTest, kFirstEngine, engineN
 INSTANTIATE_TEST_SUITE_P(Nightly, PrincipledAgreementTest, kSecondEngine, engineName);
 
 TEST_P(PrincipledAgreementTest, CoatsWithNormalsOfTheirOwn) {
-    const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/lacquer.json"), true, true);
+    const auto scene = sceneOfFile("lacquer");
     EnginePair engines(scene, GetParam());
     EXPECT_GE(agreement(engines.render(pairSettings(1))), minAgreement(*scene));
     EXPECT_EQ(device().validationMessages(), 0u);
@@ -284,7 +288,7 @@ TEST_P(PrincipledAgreementTest, CoatsWithNormalsOfTheirOwn) {
 
 // Brushed metal, thin films, leaves, glass that disperses.
 TEST_P(PrincipledAgreementTest, Extensions) {
-    const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/gltf-extensions.json"), true, true);
+    const auto scene = sceneOfFile("gltf-extensions");
     EnginePair engines(scene, GetParam());
     constexpr double kAgreeThroughGlass = 0.98;
     EXPECT_GE(agreement(engines.render(pairSettings(1))), kAgreeThroughGlass);
@@ -294,7 +298,7 @@ TEST_P(PrincipledAgreementTest, Extensions) {
 }
 
 TEST_P(PrincipledAgreementTest, SampleForSample) {
-    const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/principled.json"), true, true);
+    const auto scene = sceneOfFile("principled");
     EnginePair engines(scene, GetParam());
     for (const app::LightSampling estimator :
          {app::LightSampling::Mis, app::LightSampling::Mixture, app::LightSampling::Bsdf}) {
@@ -316,7 +320,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, PunctualAgreementTest, kFirstEngine, engineNam
 INSTANTIATE_TEST_SUITE_P(Nightly, PunctualAgreementTest, kSecondEngine, engineName);
 
 TEST_P(PunctualAgreementTest, SampleForSample) {
-    const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/punctual-lights.json"), true, true);
+    const auto scene = sceneOfFile("punctual-lights");
     EnginePair engines(scene, GetParam());
     for (const app::RenderSettings& settings : allEstimators(pairSettings(1))) {
         if (settings.sampler != app::SamplerKind::Sobol || !isTried(settings, GetParam())) continue;
@@ -332,7 +336,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, SunSkyAgreementTest, kFirstEngine, engineName)
 INSTANTIATE_TEST_SUITE_P(Nightly, SunSkyAgreementTest, kSecondEngine, engineName);
 
 TEST_P(SunSkyAgreementTest, SampleForSample) {
-    const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/sun-sky.json"), true, true);
+    const auto scene = sceneOfFile("sun-sky");
     EnginePair engines(scene, GetParam());
     EXPECT_GE(agreement(engines.render(pairSettings(1))), minAgreement(*scene));
     EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
@@ -346,7 +350,7 @@ INSTANTIATE_TEST_SUITE_P(OtherEngines, RoundAgreementTest, kSecondEngine, engine
 INSTANTIATE_TEST_SUITE_P(NightlyQueries, RoundAgreementTest, kQueries);
 
 TEST_P(RoundAgreementTest, SampleForSample) {
-    const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/disks-and-cylinders.json"), true, true);
+    const auto scene = sceneOfFile("disks-and-cylinders");
     EnginePair engines(scene, GetParam());
     EXPECT_GE(agreement(engines.render(pairSettings(1))), minAgreement(*scene));
     EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));

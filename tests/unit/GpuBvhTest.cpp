@@ -68,7 +68,7 @@ class Walk {
     void visit(std::uint32_t reference, const Box& box, std::uint32_t above, bool world) {
         depth = std::max(depth, above);
         if ((reference & shared::kTreeLeaf) == 0) {
-            if (trees_.isWide)
+            if (trees_.placed.isWide)
                 visitChildren(trees_.wideNodes, reference, box, above, world);
             else
                 visitChildren(trees_.nodes, reference, box, above, world);
@@ -161,7 +161,7 @@ TEST(GpuBvh, OfMostlyTrianglesHasFourChildrenANode) {
         const AccelInput input = geometry.input();
         const GpuBvh bvh = *buildGpuBvh(input, alwaysTrees());
         const bool isWide = input.triangles.size() > input.spheres.size() + input.quads.size();
-        EXPECT_EQ(bvh.trees.isWide, isWide) << count;
+        EXPECT_EQ(bvh.trees.placed.isWide, isWide) << count;
         EXPECT_EQ(isWide, bvh.trees.nodes.empty()) << count;
         expectComplete(input, bvh);
         if (count < 1000) continue;

@@ -47,11 +47,10 @@ std::optional<std::vector<Box>> buildPlacedTrees(const AccelInput& input, const 
                                                  const std::atomic<bool>* cancel,
                                                  std::atomic<std::uint64_t>* primitivesDone,
                                                  const std::function<void(SceneTree)>& add) {
-    std::vector<bool> used(input.geometries.size(), false);
-    for (const shared::Instance& instance : input.instances) used[instance.geometry] = true;
+    const std::vector<bool> isPlaced = placedGeometries(input);
     std::vector<Box> boxes(input.geometries.size());
     for (std::uint32_t g = 1; g < input.geometries.size(); ++g) {
-        if (!used[g]) continue;
+        if (!isPlaced[g]) continue;
         const std::optional<Box> box = buildTree(input, g, {}, boxes, settings, cancel, primitivesDone, add);
         if (!box) return std::nullopt;
         boxes[g] = *box;

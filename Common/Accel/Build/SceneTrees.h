@@ -25,8 +25,8 @@ struct SceneTree {
 bool buildSceneTrees(const AccelInput& input, const BvhSettings& settings, const std::atomic<bool>* cancel,
                      std::atomic<std::uint64_t>* primitivesDone, const std::function<void(SceneTree)>& add);
 
-// In two parts: first all but the world's. Gives the box of each geometry, empty for one that no instance places or that
-// has nothing in it; nothing: cancelled.
+// In two parts: first all but the world's. Gives the box of each geometry, empty for one that no instance places or
+// that has nothing in it; nothing: cancelled.
 std::optional<std::vector<Box>> buildPlacedTrees(const AccelInput& input, const BvhSettings& settings,
                                                  const std::atomic<bool>* cancel,
                                                  std::atomic<std::uint64_t>* primitivesDone,

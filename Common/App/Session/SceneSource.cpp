@@ -30,12 +30,6 @@ std::shared_ptr<const scene::CompiledScene> compileWith(Desc&& desc, bool oneSid
     return scene::compileScene(std::forward<Desc>(desc), options);
 }
 
-bool isBuiltin(const std::string& source) {
-    const std::string id = source.substr(0, source.find(':'));
-    const auto all = scene::builtinScenes();
-    return std::any_of(all.begin(), all.end(), [&](const scene::BuiltinScene& scene) { return scene.id == id; });
-}
-
 // A name of something that is there is no misspelt id.
 void refuseOtherFile(const std::string& source) {
     std::error_code none;
@@ -67,7 +61,7 @@ std::filesystem::path fileNamedBy(const std::string& source) {
 scene::SceneDesc loadScene(const std::string& source, const scene::Moment& moment) {
     const bool isSceneFile = scene::kindOfFile(source) == ".json";
     if (!isSceneFile && !scene::isModelFile(source)) {
-        if (!isBuiltin(source)) refuseOtherFile(source);
+        if (!scene::isBuiltinScene(source)) refuseOtherFile(source);
         scene::SceneDesc scene = scene::findBuiltinScene(source);
         noticeStandstill(moment, scene.notices);
         return scene;

@@ -105,18 +105,32 @@ std::optional<std::uint32_t> parseCount(std::string_view text) {
     return isValid ? std::optional(count) : std::nullopt;
 }
 
+// Without the count.
+std::string_view nameIn(std::string_view id) {
+    return id.substr(0, id.find(':'));
+}
+
+const BuiltinScene* sceneNamed(std::string_view name) { // null: there is none
+    const auto* const found = std::find_if(std::begin(kScenes), std::end(kScenes),
+                                           [&](const BuiltinScene& scene) { return scene.id == name; });
+    return found == std::end(kScenes) ? nullptr : found;
+}
+
 } // namespace
 
 std::span<const BuiltinScene> builtinScenes() {
     return kScenes;
 }
 
+bool isBuiltinScene(const std::string& id) {
+    return sceneNamed(nameIn(id)) != nullptr;
+}
+
 SceneDesc findBuiltinScene(const std::string& id) {
     const std::size_t colon = id.find(':');
-    const std::string_view name = std::string_view(id).substr(0, colon);
-    const auto* found = std::find_if(std::begin(kScenes), std::end(kScenes),
-                                     [&](const BuiltinScene& scene) { return scene.id == name; });
-    if (found == std::end(kScenes))
+    const std::string_view name = nameIn(id);
+    const BuiltinScene* const found = sceneNamed(name);
+    if (found == nullptr)
         throw InputError("scene \"" + id + "\": no such scene; nearest: " + nearestIds(name) +
                          "; --list-scenes lists all, and .json, .obj, .gltf, .glb and .pbrt files are scenes too");
     std::uint32_t count = found->defaultCount;

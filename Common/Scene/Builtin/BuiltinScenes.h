@@ -22,6 +22,7 @@ inline constexpr std::uint32_t kMaxSceneCount = 10'000'000;
 // All of them, in the order of menus and lists.
 std::span<const BuiltinScene> builtinScenes();
 
+bool isBuiltinScene(const std::string& id); // by its name; of "id:N" whatever N is
 // By id, or "id:N" with 1 <= N <= kMaxSceneCount for a scene that has a count. Throws InputError that says what is
 // allowed.
 SceneDesc findBuiltinScene(const std::string& id);

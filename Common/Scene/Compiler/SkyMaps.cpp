@@ -58,6 +58,24 @@ glm::dvec2 equalAreaPlace(const glm::dvec3& d) {
     return {0.5 * (std::copysign(u, d.x) + 1), 0.5 * (std::copysign(v, d.y) + 1)};
 }
 
+std::uint32_t appendLinearImage(std::uint32_t width, std::uint32_t height, const std::string& name,
+                                CompiledScene& out) {
+    const std::size_t first = out.texels.size(), size = std::size_t{3} * width * height;
+    if (first + size > shared::kNone) throw InputError(name + ": all images together exceed 16 GiB");
+    out.texels.resize(first + size);
+    shared::Image image{};
+    image.firstTexel = static_cast<std::uint32_t>(first);
+    image.width = width;
+    image.height = height;
+    image.format = shared::kTexelLinearF32;
+    out.images.push_back(image);
+    return static_cast<std::uint32_t>(out.images.size() - 1);
+}
+
+void setTexel(std::uint32_t* words, const glm::dvec3& color) {
+    for (int c = 0; c < 3; ++c) words[c] = shared::floatBitsToUint(static_cast<float>(color[c]));
+}
+
 std::uint32_t appendSkyMap(const ImageBackground& sky, std::uint32_t image, CompiledScene& out) {
     const shared::Image source = out.images[image];
     const auto& m = sky.orientation;
@@ -65,14 +83,11 @@ std::uint32_t appendSkyMap(const ImageBackground& sky, std::uint32_t image, Comp
     const auto placeOf = sky.projection == SkyProjection::LatitudeLongitude ? latLongPlace
                          : source.width == source.height                    ? equalAreaPlace
                                                                             : pbrtLatLongPlace;
-    shared::Image made{};
-    made.firstTexel = static_cast<std::uint32_t>(out.texels.size());
     // Whatever its shape is, with twice its texels.
     const double side = std::sqrt(double(source.width) * source.height);
-    made.height = std::max(static_cast<std::uint32_t>(std::ceil(side)), 2u);
-    made.width = 2 * made.height;
-    made.format = shared::kTexelLinearF32;
-    std::vector<std::uint32_t> words(std::size_t{3} * made.width * made.height);
+    const std::uint32_t height = std::max(static_cast<std::uint32_t>(std::ceil(side)), 2u);
+    const std::uint32_t index = appendLinearImage(2 * height, height, sky.file, out);
+    const shared::Image made = out.images[index];
     parallelFor(0, made.height, [&](std::size_t row) {
         for (std::uint32_t column = 0; column < made.width; ++column) {
             glm::dvec3 sum(0);
@@ -82,16 +97,11 @@ std::uint32_t appendSkyMap(const ImageBackground& sky, std::uint32_t image, Comp
                 const glm::dvec2 at = placeOf(toImage * skyDirection(u, v));
                 sum += texelColor(out, source, cellOf(at.x, source.width), cellOf(at.y, source.height));
             }
-            const std::size_t first = 3 * (row * made.width + column);
-            for (int c = 0; c < 3; ++c)
-                words[first + static_cast<std::size_t>(c)] =
-                    shared::floatBitsToUint(static_cast<float>(sum[c] / (kPlaces * kPlaces)));
+            setTexel(&out.texels[made.firstTexel + 3 * (row * made.width + column)],
+                     sum / static_cast<double>(kPlaces * kPlaces));
         }
     });
-    out.texels.insert(out.texels.end(), words.begin(), words.end());
-    if (out.texels.size() > shared::kNone) throw InputError(sky.file + ": all images together exceed 16 GiB");
-    out.images.push_back(made);
-    return static_cast<std::uint32_t>(out.images.size() - 1);
+    return index;
 }
 
 } // namespace rt::scene

@@ -9,8 +9,8 @@
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
+#include "Common/Scene/Compiler/SkyMaps.h"
 #include "Common/Scene/Daylight.h"
 
 namespace rt::scene {
@@ -119,17 +119,15 @@ class SunSkyMap {
         return sum;
     }
 
-    std::uint32_t& word(std::uint32_t row, std::uint32_t column, int channel) {
-        return words_[3 * (std::size_t{row} * kSkyColumns + column) + static_cast<std::size_t>(channel)];
+    std::uint32_t* texel(std::uint32_t row, std::uint32_t column) {
+        return words_ + 3 * (std::size_t{row} * kSkyColumns + column);
     }
-    void set(std::uint32_t row, std::uint32_t column, const glm::dvec3& color) {
-        for (int c = 0; c < 3; ++c) word(row, column, c) = shared::floatBitsToUint(static_cast<float>(color[c]));
-    }
+    void set(std::uint32_t row, std::uint32_t column, const glm::dvec3& color) { setTexel(texel(row, column), color); }
     void add(std::uint32_t row, std::uint32_t column, const glm::dvec3& color) {
-        for (int c = 0; c < 3; ++c) {
-            const float before = shared::uintBitsToFloat(word(row, column, c));
-            word(row, column, c) = shared::floatBitsToUint(static_cast<float>(before + color[c]));
-        }
+        const std::uint32_t* const words = texel(row, column);
+        glm::dvec3 sum = color;
+        for (int c = 0; c < 3; ++c) sum[c] += shared::uintBitsToFloat(words[c]);
+        set(row, column, sum);
     }
 
     const Daylight daylight_;
@@ -141,17 +139,9 @@ class SunSkyMap {
 } // namespace
 
 std::uint32_t appendSunSkyMap(const SunSkyBackground& sky, CompiledScene& out) {
-    const std::size_t first = out.texels.size(), size = std::size_t{3} * kSkyRows * kSkyColumns;
-    if (first + size > shared::kNone) throw InputError(out.id + ": all images together exceed 16 GiB");
-    out.texels.resize(first + size);
-    SunSkyMap(sky, &out.texels[first]).make();
-    shared::Image image{};
-    image.firstTexel = static_cast<std::uint32_t>(first);
-    image.width = kSkyColumns;
-    image.height = kSkyRows;
-    image.format = shared::kTexelLinearF32;
-    out.images.push_back(image);
-    return static_cast<std::uint32_t>(out.images.size() - 1);
+    const std::uint32_t index = appendLinearImage(kSkyColumns, kSkyRows, out.id, out);
+    SunSkyMap(sky, &out.texels[out.images[index].firstTexel]).make();
+    return index;
 }
 
 } // namespace rt::scene

@@ -5,6 +5,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Printable.h"
+#include "Common/Scene/Json/JsonWriting.h"
 #include "Common/Scene/Json/PrincipledType.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "Common/Scene/Json/SkyJson.h"
@@ -96,14 +97,7 @@ void write(const OrderedJson& value, const std::string& indent, std::string& out
 
 // ---- values --------------------------------------------------------------------------------------------------------
 
-OrderedJson json(const glm::dvec3& v) {
-    return OrderedJson::array({v.x, v.y, v.z});
-}
-
-OrderedJson json(const ColorOrTexture& source) {
-    if (const auto* color = std::get_if<glm::dvec3>(&source)) return json(*color);
-    return std::get<std::string>(source);
-}
+using scene::json;
 
 template <typename Vector>
 OrderedJson flat(const std::vector<Vector>& vectors) {
@@ -111,15 +105,6 @@ OrderedJson flat(const std::vector<Vector>& vectors) {
     for (const Vector& v : vectors)
         for (int i = 0; i < v.length(); ++i) numbers.push_back(v[i]);
     return numbers;
-}
-
-template <typename Value>
-void setUnless(OrderedJson& target, const char* key, const Value& value, const Value& usual) {
-    if (value == usual) return;
-    if constexpr (std::is_same_v<Value, glm::dvec3> || std::is_same_v<Value, ColorOrTexture>)
-        target[key] = json(value);
-    else
-        target[key] = value;
 }
 
 OrderedJson json(const CameraDesc& camera) {

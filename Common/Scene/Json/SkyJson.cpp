@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <type_traits>
 #include <variant>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "Common/Scene/Json/JsonWriting.h"
 #include "Common/Scene/Json/SceneJson.h"
 
 namespace rt::scene {
@@ -59,41 +59,28 @@ SunSkyBackground readSunSky(const JsonNode& node) {
 
 // ---- writing -------------------------------------------------------------------------------------------------------
 
-OrderedJson skyColor(const glm::dvec3& color) {
-    return OrderedJson::array({color.x, color.y, color.z});
-}
-
-template <typename Value>
-void setUnlessUsual(OrderedJson& target, const char* key, const Value& value, const Value& usual) {
-    if (value == usual) return;
-    if constexpr (std::is_same_v<Value, glm::dvec3>)
-        target[key] = skyColor(value);
-    else
-        target[key] = value;
-}
-
 struct SkyWriter {
     OrderedJson operator()(const ConstantBackground& sky) const {
-        return {{"type", "constant"}, {"color", skyColor(sky.color)}};
+        return {{"type", "constant"}, {"color", json(sky.color)}};
     }
     OrderedJson operator()(const GradientBackground& sky) const {
-        return {{"type", "gradient"}, {"bottom", skyColor(sky.bottom)}, {"top", skyColor(sky.top)}};
+        return {{"type", "gradient"}, {"bottom", json(sky.bottom)}, {"top", json(sky.top)}};
     }
     OrderedJson operator()(const ImageBackground& sky) const {
         const ImageBackground usual;
         OrderedJson out = {{"type", "image"}, {"file", sky.file}};
-        setUnlessUsual(out, "factor", sky.factor, usual.factor);
-        setUnlessUsual(out, "rotation", sky.rotation, usual.rotation);
+        setUnless(out, "factor", sky.factor, usual.factor);
+        setUnless(out, "rotation", sky.rotation, usual.rotation);
         if (sky.projection == SkyProjection::Pbrt) out["projection"] = "pbrt";
-        setUnlessUsual(out, "orientation", sky.orientation, usual.orientation);
+        setUnless(out, "orientation", sky.orientation, usual.orientation);
         return out;
     }
     OrderedJson operator()(const SunSkyBackground& sky) const {
         const SunSkyBackground usual;
         OrderedJson out = {{"type", "sun_sky"}, {"sun_elevation", sky.sunElevation}, {"sun_azimuth", sky.sunAzimuth}};
-        setUnlessUsual(out, "turbidity", sky.turbidity, usual.turbidity);
-        setUnlessUsual(out, "ground", sky.ground, usual.ground);
-        setUnlessUsual(out, "factor", sky.factor, usual.factor);
+        setUnless(out, "turbidity", sky.turbidity, usual.turbidity);
+        setUnless(out, "ground", sky.ground, usual.ground);
+        setUnless(out, "factor", sky.factor, usual.factor);
         return out;
     }
 };

@@ -17,25 +17,12 @@ constexpr PbrtColorSpace kSpaces[] = {
     {"dci-p3", {{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, {0.3127, 0.3290}}},
     {"aces2065-1", {{0.7347, 0.2653}, {0.0, 1.0}, {0.0001, -0.0770}, {0.32168, 0.33767}}}};
 
-// CIE 1931's colour of light at a wavelength, fitted: C. Wyman, P.-P. Sloan, P. Shirley, Simple Analytic Approximations
-// to the CIE XYZ Color Matching Functions, JCGT 2(2), 2013, equation 4. Sums of Gaussians that are wider on one side.
-double lobe(double nm, double middle, double below, double above) {
-    const double t = (nm - middle) / (nm < middle ? below : above);
-    return std::exp(-0.5 * t * t);
-}
-glm::dvec3 colorMatch(double nm) {
-    return {
-        1.056 * lobe(nm, 599.8, 37.9, 31.0) + 0.362 * lobe(nm, 442.0, 16.0, 26.7) - 0.065 * lobe(nm, 501.1, 20.4, 26.2),
-        0.821 * lobe(nm, 568.8, 46.9, 40.5) + 0.286 * lobe(nm, 530.9, 16.3, 31.1),
-        1.217 * lobe(nm, 437.0, 11.8, 36.0) + 0.681 * lobe(nm, 459.0, 26.0, 13.8)};
-}
-
 constexpr double kFirstNm = 360, kLastNm = 830;
 
 template <class Spectrum>
 glm::dvec3 xyzOfSpectrum(const Spectrum& spectrum) {
     glm::dvec3 sum(0);
-    for (double nm = kFirstNm; nm <= kLastNm; nm += 1) sum += spectrum(nm) * colorMatch(nm);
+    for (double nm = kFirstNm; nm <= kLastNm; nm += 1) sum += spectrum(nm) * colorMatching(nm);
     return sum;
 }
 
