@@ -81,7 +81,8 @@ ends() {
 }
 # takes FILE SCALE: the window as a picture of 256 colours.
 takes() {
-    xwd -root -silent | convert xwd:- -crop "$((1280 * $2))x$((860 * $2))+0+0" +repage -dither FloydSteinberg -colors 256 "png8:$1"
+    xwd -root -silent |
+        convert xwd:- -crop "$((1280 * $2))x$((860 * $2))+0+0" +repage -dither FloydSteinberg -colors 256 "png8:$1"
     echo "$1"
 }
 

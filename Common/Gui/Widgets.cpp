@@ -114,13 +114,12 @@ void note(const std::string& text) {
     wrapped(text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
 }
 
-void placeNextWindow(const ImVec2& size, const ImVec2& mostOfScreen) {
+void placeNextWindow(const ImVec2& size, const ImVec2& maxShares) {
     const ImVec2 all = ImGui::GetMainViewport()->Size;
     const float em = ImGui::GetFontSize();
     ImGui::SetNextWindowPos({0.5f * all.x, 0.5f * all.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize(
-        {std::min(size.x * em, mostOfScreen.x * all.x), std::min(size.y * em, mostOfScreen.y * all.y)},
-        ImGuiCond_Appearing);
+    ImGui::SetNextWindowSize({std::min(size.x * em, maxShares.x * all.x), std::min(size.y * em, maxShares.y * all.y)},
+                             ImGuiCond_Appearing);
 }
 
 float textWidth(const std::string& text) {

@@ -24,7 +24,7 @@ void wrapped(const std::string& text, const ImVec4& color);
 std::string elided(const std::string& text, float width);
 float textWidth(const std::string& text);
 // The next window appears in the middle, of this size in heights of the font, of at most these shares of the screen.
-void placeNextWindow(const ImVec2& size, const ImVec2& mostOfScreen);
+void placeNextWindow(const ImVec2& size, const ImVec2& maxShares);
 
 // All return whether the value has changed. Typed numbers count when the field is left, brought into their range.
 // `zero`: a word, without "%", that stands for 0 while nobody types.

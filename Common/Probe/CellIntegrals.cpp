@@ -86,7 +86,7 @@ double CellIntegrals::uncertaintyOf(const Leaf& leaf, double squaredError) const
 
 // ---- where to look -------------------------------------------------------------------------------------------------
 
-// Those below `at` come first.
+// Guides below `at` come first; gives where the others begin.
 std::uint32_t CellIntegrals::divideGuides(std::uint32_t first, std::uint32_t end, int axis, double at) {
     const auto isBelow = [axis, at](const Guide& guide) { return guide.place[axis] < at; };
     const auto middle = std::partition(guides_.begin() + first, guides_.begin() + end, isBelow);

@@ -102,7 +102,7 @@ class WindowTest : public Desktop, public testing::WithParamInterface<const char
             "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}]})";
         return file;
     }
-    // The same with three balls in a row.
+    // A scene as of writeScene(), with three balls in a row.
     std::filesystem::path writeThreeBalls(const std::string& name, const std::string& title) const {
         std::filesystem::path file = writeScene(name, title);
         nlohmann::json scene = nlohmann::json::parse(std::ifstream(file));

@@ -231,7 +231,8 @@ TEST(PbrtPictures, ALensIsFocused) {
     }
 }
 
-// Smoke of extinction 0.8, were it black, lets exp(-0.8 t) through along a chord t; were it white, it would not be seen.
+// Smoke of extinction 0.8, were it black, lets exp(-0.8 t) through along a chord t; were it white, it would not be
+// seen.
 TEST(PbrtPictures, SmokeInABall) {
     for (const double albedo : {0.0, 1.0}) {
         SceneDesc scene = underSky(pbrtFile("media"));

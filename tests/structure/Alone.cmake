@@ -100,7 +100,8 @@ foreach(target IN LISTS targets)
         math(EXPR milliseconds "1000 + ${count} * 500")
         rt_alone_step(${target} sources ${milliseconds} TARGETS ${target} FILES ${files})
         set_tests_properties(structure.alone.${target} PROPERTIES FIXTURES_REQUIRED "aloneLibraries;aloneHeaders")
-        if(folder MATCHES "/tests$") # at night: nobody's build but ours compiles tests, and theirs are half of all sources
+        # Tests at night: nobody's build but ours compiles them, and theirs are half of all sources.
+        if(folder MATCHES "/tests$")
             set_tests_properties(structure.alone.${target} PROPERTIES LABELS "structure;nightly")
         endif()
         rt_tidy_tests(${target} ${alone}/${target}.$<CONFIG>.cmake)

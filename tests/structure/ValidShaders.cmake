@@ -1,4 +1,5 @@
-# Fails unless shaders of the build are valid SPIR-V: cmake -DSPIRV_VAL=... -DWHICH=... -DFOLDER=... -P ValidShaders.cmake
+# Fails unless shaders of the build are valid SPIR-V:
+# cmake -DSPIRV_VAL=... -DWHICH=... -DFOLDER=... -P ValidShaders.cmake
 # WHICH: Kernels trace paths, Shaders are all others.
 file(GLOB shaders ${FOLDER}/*.spv)
 set(filter EXCLUDE)

@@ -218,7 +218,7 @@ TEST_F(AddedModelsTest, AnEditIsKeptByTheNameOfTheFile) {
     EXPECT_THROW(parseStep(line, "kept"), InputError);
 }
 
-// Those of models that a model has taken in are the scene's prototypes, too.
+// Prototypes of models that a model has taken in are the scene's prototypes, too.
 TEST_F(AddedModelsTest, PrototypesOfInnerModelsCanBeChanged) {
     write("street.json", R"({"models": {"two": {"file": "models/two.obj"}},
                              "objects": [{"type": "instance", "prototype": "two"}]})");

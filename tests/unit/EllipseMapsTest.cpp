@@ -163,7 +163,8 @@ double strataVariance(const EllipseView& view, uint method, double receiver, dou
 }
 
 // Weights for the receiver must not cost what strata gain: from any place, with one sample as with 64, they are less
-// noisy than none, by far where the cosine varies. Weights of the azimuth alone have up to 7 times the noise of none here.
+// noisy than none, by far where the cosine varies. Weights of the azimuth alone have up to 7 times the noise of none
+// here.
 TEST(EllipseMaps, TheReceiversCosineLeavesStrataTheirGain) {
     for (const EllipseView& view : kViews) {
         for (const double receiver : {30, 60, 90}) {
