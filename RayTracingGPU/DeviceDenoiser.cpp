@@ -23,8 +23,8 @@ using shared::kDenoiseBandwidths;
 using shared::LiveLaunch;
 
 static_assert(shared::kDenoiseRelativeFloor == static_cast<float>(image::kRelativeFloor));
-static_assert(shared::kDenoiseCell == 2 * shared::kDenoiseColumns && shared::kDenoiseCell == shared::kDenoiseRows,
-              "DenoiseBlend.comp has cells of two work groups");
+static_assert(shared::kDenoiseCell % shared::kDenoiseColumns == 0 && shared::kDenoiseCell % shared::kDenoiseRows == 0,
+              "cells are whole work groups");
 static_assert(image::kDenoiseCandidates <= 4, "a pixel of a plane has all candidates");
 
 constexpr std::size_t kFourFloats = 4 * sizeof(float), kThreeFloats = 3 * sizeof(float);
@@ -53,6 +53,10 @@ Shader shaderOf(DenoisePass pass) {
             return Shader::DenoiseMix;
         case DenoisePass::Blend:
             return Shader::DenoiseBlend;
+        case DenoisePass::Coarse:
+            return Shader::DenoiseCoarse;
+        case DenoisePass::GiveBack:
+            return Shader::DenoiseGiveBack;
         case DenoisePass::History:
             return Shader::DenoiseHistory;
         case DenoisePass::HistoryMerge:
@@ -245,25 +249,26 @@ bool DeviceDenoiser::run(std::uint64_t samplesOfHalf, std::uint32_t dependentSid
     launch.candidates = kDenoiseBandwidths + (samplesOfHalf >= shared::kDenoiseRawSamples ? 1 : 0);
     launch.mixed = samplesOfHalf >= shared::kDenoiseMixSamples ? 1 : 0;
     launch.dependentSide = dependentSide;
-    const auto mean = [&](std::uint32_t use) {
-        launch.use = use;
-        runPass(DenoisePass::Mean, launch, groups());
-    };
+    const bool hasRawGuides = samplesOfHalf >= shared::kDenoiseRawGuideSamples;
+    launch.use = hasRawGuides ? shared::kMeansToGuides : shared::kMeansOfTones;
     const auto pitch = static_cast<std::uint32_t>(shared::denoisePitch(width_));
     const auto rows = static_cast<std::uint32_t>(shared::denoisePlaneRows(height_));
     runPass(DenoisePass::Prepare, launch,
             {groupsFor(pitch, shared::kDenoiseColumns), groupsFor(rows, shared::kDenoiseRows), 1});
-    const bool hasRawGuides = samplesOfHalf >= shared::kDenoiseRawGuideSamples;
-    mean(hasRawGuides ? shared::kMeansToGuides : shared::kMeansOfTones);
+    runPass(DenoisePass::Mean, launch, groups());
     if (!hasRawGuides) runPass(DenoisePass::Guide, launch, {groups().width, groups().height, 2});
     runPass(DenoisePass::Features, launch,
             {groupsFor(width_, shared::kDenoiseTile), groupsFor(height_, shared::kDenoiseTile), 1});
     if (!fit(launch, cancel)) return false;
     runPass(DenoisePass::Errors, launch, groups());
-    mean(shared::kMeansAsTheyAre);
+    launch.use = shared::kMeansAsTheyAre;
+    runPass(DenoisePass::Mean, launch, groups());
     runPass(DenoisePass::Mix, launch, groups());
     runPass(DenoisePass::Blend, launch, groups());
-    mean(shared::kMeansPositive);
+    if (samplesOfHalf >= shared::kDenoiseCoarseSamples)
+        for (const DenoisePass pass : {DenoisePass::Coarse, DenoisePass::GiveBack}) runPass(pass, launch, groups());
+    launch.use = shared::kMeansPositive;
+    runPass(DenoisePass::Mean, launch, groups());
     readSums(dependentSide);
     return true;
 }

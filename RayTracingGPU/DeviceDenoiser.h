@@ -36,15 +36,17 @@ enum class DenoisePass {
     Errors,
     Mix,
     Blend,
+    Coarse,
+    GiveBack,
     History,
     HistoryMerge,
     LivePrepare,
     Live
 };
-inline constexpr std::size_t kDenoisePasses = 13;
+inline constexpr std::size_t kDenoisePasses = 15;
 inline constexpr std::array<const char*, kDenoisePasses> kDenoisePassNames{
-    "depths", "prepare", "mean",    "guide",         "features",     "fit", "errors",
-    "mix",    "blend",   "history", "history_merge", "live_prepare", "live"};
+    "depths", "prepare", "mean",      "guide",   "features",      "fit",          "errors", "mix",
+    "blend",  "coarse",  "give_back", "history", "history_merge", "live_prepare", "live"};
 
 // The compiled shaders, for pictures of any size. Each is compiled when it is first needed.
 class DenoisePipelines {

@@ -38,6 +38,8 @@
     X(DenoiseErrors, DenoiseErrors_comp)                       \
     X(DenoiseMix, DenoiseMix_comp)                             \
     X(DenoiseBlend, DenoiseBlend_comp)                         \
+    X(DenoiseCoarse, DenoiseCoarse_comp)                       \
+    X(DenoiseGiveBack, DenoiseGiveBack_comp)                   \
     X(DenoiseDepths, DenoiseDepths_comp)                       \
     X(DenoiseHistory, DenoiseHistory_comp)                     \
     X(DenoiseHistoryMerge, DenoiseHistoryMerge_comp)           \

@@ -4,7 +4,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #include "DenoiseBlended.glsl"
-#include "Common/Shared/Denoise/DenoiseMix.h"
+#include "DenoiseCells.glsl"
 
 layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
 
@@ -15,35 +15,11 @@ const uint kGroupSize = uint(kDenoiseColumns * kDenoiseRows);
 shared vec4 sharedErrors[kGroupSize];
 shared vec4 sharedShares[kGroupSize];
 
-// What DenoiseMix.comp has found for a cell, which is two work groups wide.
-vec2 mixOfCell(int column, int row) {
-    uint x = uint(clamp(column, 0, int(launch.width - 1u) / kDenoiseCell));
-    uint y = uint(clamp(row, 0, int(launch.height - 1u) / kDenoiseCell));
-    vec2 sum = vec2(0.0f);
-    for (uint i = 2u * x; i < min(2u * x + 2u, gl_NumWorkGroups.x); i++) {
-        uint at = (y * gl_NumWorkGroups.x + i) * kDenoiseSums + kDenoiseMixSums;
-        sum += vec2(launch.sums.at[at], launch.sums.at[at + 1u]);
-    }
-    return sum;
-}
-
-float filterShare(ivec2 pixel) {
-    DenoiseCellPlace x = denoiseCellPlace(pixel.x);
-    DenoiseCellPlace y = denoiseCellPlace(pixel.y);
-    vec2 above = mix(mixOfCell(x.first, y.first), mixOfCell(x.first + 1, y.first), x.fraction);
-    vec2 below = mix(mixOfCell(x.first, y.first + 1), mixOfCell(x.first + 1, y.first + 1), x.fraction);
-    vec2 sums = mix(above, below, y.fraction);
-    DenoiseMix cells;
-    cells.gain = sums.x;
-    cells.change = sums.y;
-    return denoiseFilterShare(cells);
-}
-
 // The weight of each candidate.
 vec4 sharesAt(ivec2 pixel) {
     vec4 shares = launch.values.at[pixelIndex(pixel)];
     if (launch.mixed == 0u) return shares;
-    float share = filterShare(pixel);
+    float share = mixShare(pixel);
     shares *= share;
     shares[kRawCandidate] += 1.0f - share;
     return shares;
@@ -67,6 +43,7 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     uint lane = gl_LocalInvocationIndex;
     sharedErrors[lane] = sharedShares[lane] = vec4(0.0f);
+    if (launch.mixed != 0u) loadCells(kDenoiseMixSums);
     if (isInside(pixel)) {
         vec4 shares = sharesAt(pixel);
         sharedShares[lane] = shares;

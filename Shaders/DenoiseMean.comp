@@ -1,4 +1,5 @@
-// Means over the pixels of the image in a square around each.
+// Means over the pixels of the image in a square around each: sums of rows, which pixels above each other share, then of
+// these.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
@@ -7,25 +8,51 @@
 
 layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
 
-void main() {
-    bool ofErrors = launch.use == kMeansAsTheyAre || launch.use == kMeansPositive;
-    int reach = ofErrors ? kDenoiseErrorReach : kDenoiseVarianceReach;
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (!isInside(pixel)) return;
-    ivec2 first = max(pixel - reach, ivec2(0));
-    ivec2 last = min(pixel + reach, ivec2(launch.width, launch.height) - 1);
+const uint kGroupSize = uint(kDenoiseColumns * kDenoiseRows);
+const int kMaxReach = max(kDenoiseVarianceReach, max(kDenoiseChoiceReach, kDenoiseErrorReach));
+const int kColumns = kDenoiseColumns + 2 * kMaxReach; // of pixels in reach
+const int kRows = kDenoiseRows + 2 * kMaxReach;
+
+shared vec4 values[kRows * kColumns];           // 0 outside of the image
+shared vec4 rowSums[kRows * kDenoiseColumns];   // over the pixels in reach of each column
+shared vec4 otherSums[kRows * kDenoiseColumns]; // the same without the nearest
+
+int reachOfUse() {
+    if (launch.use == kMeansAsTheyAre) return kDenoiseChoiceReach;
+    return launch.use == kMeansPositive ? kDenoiseErrorReach : kDenoiseVarianceReach;
+}
+
+void load(uint at) {
+    ivec2 corner = ivec2(gl_WorkGroupID.xy) * ivec2(kDenoiseColumns, kDenoiseRows) - kMaxReach;
+    ivec2 pixel = corner + ivec2(int(at) % kColumns, int(at) / kColumns);
+    values[at] = isInside(pixel) ? launch.values.at[pixelIndex(pixel)] : vec4(0.0f);
+}
+
+void sumRow(uint at, int reach) {
+    int middle = int(at) / kDenoiseColumns * kColumns + int(at) % kDenoiseColumns + kMaxReach;
     vec4 sum = vec4(0.0f), others = vec4(0.0f);
-    int otherCount = 0;
-    for (int y = first.y; y <= last.y; y++)
-        for (int x = first.x; x <= last.x; x++) {
-            vec4 value = launch.values.at[pixelIndex(ivec2(x, y))];
-            sum += value;
-            if (max(abs(x - pixel.x), abs(y - pixel.y)) <= kDenoiseOwnReach) continue;
-            others += value;
-            otherCount++;
-        }
-    ivec2 size = last - first + 1;
-    vec4 mean = sum / float(size.x * size.y);
+    for (int x = -reach; x <= reach; x++) {
+        vec4 value = values[middle + x];
+        sum += value;
+        if (abs(x) > kDenoiseOwnReach) others += value;
+    }
+    rowSums[at] = sum;
+    otherSums[at] = others;
+}
+
+int pixelsInReach(ivec2 pixel, int reach) {
+    ivec2 size = min(pixel + reach, ivec2(launch.width, launch.height) - 1) - max(pixel - reach, ivec2(0)) + 1;
+    return size.x * size.y;
+}
+
+void write(ivec2 pixel, int reach) {
+    vec4 sum = vec4(0.0f), others = vec4(0.0f);
+    for (int y = -reach; y <= reach; y++) {
+        int at = int(gl_LocalInvocationIndex) + (y + kMaxReach) * kDenoiseColumns;
+        sum += rowSums[at];
+        others += abs(y) > kDenoiseOwnReach ? rowSums[at] : otherSums[at];
+    }
+    vec4 mean = sum / float(pixelsInReach(pixel, reach));
     if (launch.use == kMeansOfTones) {
         for (int half_ = 0; half_ < 2; half_++) launch.filtered.at[planeIndex(pixel, half_)].w = mean.x;
     } else if (launch.use == kMeansToGuides) {
@@ -38,9 +65,20 @@ void main() {
     } else if (launch.use == kMeansPositive) {
         launch.means.at[pixelIndex(pixel)] = max(mean, vec4(0.0f));
     } else { // of the candidates' errors
+        int otherCount = pixelsInReach(pixel, reach) - pixelsInReach(pixel, kDenoiseOwnReach);
         for (int i = 0; i < 4 && otherCount > 0; i++)
             mean[i] = denoiseChoiceError(mean[i], others[i] / float(otherCount));
         mean[kRawCandidate] *= kDenoiseRawCaution;
         launch.means.at[pixelIndex(pixel)] = mean;
     }
+}
+
+void main() {
+    int reach = reachOfUse();
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    for (uint at = gl_LocalInvocationIndex; at < uint(kRows * kColumns); at += kGroupSize) load(at);
+    barrier();
+    for (uint at = gl_LocalInvocationIndex; at < uint(kRows * kDenoiseColumns); at += kGroupSize) sumRow(at, reach);
+    barrier();
+    if (isInside(pixel)) write(pixel, reach);
 }

@@ -10,6 +10,11 @@ layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
 
 const uint kGroupSize = uint(kDenoiseColumns * kDenoiseRows);
 
+const int kColumns = kDenoiseColumns + 2 * kDenoiseBlendReach; // of pixels whose choices count
+const int kRows = kDenoiseRows + 2 * kDenoiseBlendReach;
+const uint kNoChoice = 4u; // of what is outside of the image
+
+shared uint choices[kRows * kColumns];
 shared vec2 sharedMix[kGroupSize]; // of each invocation, then of all
 
 // The candidate of the least error.
@@ -21,25 +26,27 @@ uint choiceAt(ivec2 pixel) {
     return best;
 }
 
-vec4 oneOf(uint candidate) {
-    return vec4(equal(uvec4(candidate), uvec4(0u, 1u, 2u, 3u)));
+void loadChoice(uint at) {
+    ivec2 corner = ivec2(gl_WorkGroupID.xy) * ivec2(kDenoiseColumns, kDenoiseRows) - kDenoiseBlendReach;
+    ivec2 pixel = corner + ivec2(int(at) % kColumns, int(at) / kColumns);
+    choices[at] = isInside(pixel) ? choiceAt(pixel) : kNoChoice;
 }
 
 // Of each candidate: the share of the pixels around that chose it.
-vec4 shareOfChoices(ivec2 pixel, int reach) {
-    ivec2 first = max(pixel - reach, ivec2(0));
-    ivec2 last = min(pixel + reach, ivec2(launch.width, launch.height) - 1);
+vec4 shareOfChoices(int reach) {
+    int middle =
+        (int(gl_LocalInvocationID.y) + kDenoiseBlendReach) * kColumns + int(gl_LocalInvocationID.x) + kDenoiseBlendReach;
     vec4 sum = vec4(0.0f);
-    for (int y = first.y; y <= last.y; y++)
-        for (int x = first.x; x <= last.x; x++) sum += oneOf(choiceAt(ivec2(x, y)));
-    ivec2 size = last - first + 1;
-    return sum / float(size.x * size.y);
+    for (int y = -reach; y <= reach; y++)
+        for (int x = -reach; x <= reach; x++)
+            sum += vec4(equal(uvec4(choices[middle + y * kColumns + x]), uvec4(0u, 1u, 2u, 3u)));
+    return sum / (sum.x + sum.y + sum.z + sum.w);
 }
 
-vec4 blend(ivec2 pixel) {
-    vec4 shares = shareOfChoices(pixel, kDenoiseBlendReach);
+vec4 blend() {
+    vec4 shares = shareOfChoices(kDenoiseBlendReach);
     if (launch.candidates <= kRawCandidate) return shares;
-    float raw = shareOfChoices(pixel, kDenoiseRawBlendReach)[kRawCandidate];
+    float raw = shareOfChoices(kDenoiseRawBlendReach)[kRawCandidate];
     shares *= denoiseFilterScale(shares[kRawCandidate], raw);
     shares[kRawCandidate] = raw;
     return shares;
@@ -61,9 +68,11 @@ DenoiseMix mixAt(vec4 shares, ivec2 pixel) {
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     uint lane = gl_LocalInvocationIndex;
+    for (uint at = lane; at < uint(kRows * kColumns); at += kGroupSize) loadChoice(at);
     sharedMix[lane] = vec2(0.0f);
+    barrier();
     if (isInside(pixel)) {
-        vec4 shares = blend(pixel);
+        vec4 shares = blend();
         launch.values.at[pixelIndex(pixel)] = shares;
         if (launch.mixed != 0u) {
             DenoiseMix mix = mixAt(shares, pixel);

@@ -27,8 +27,9 @@ void main() {
         vec4 radiance = radianceOf(pixel, uint(half_));
         tones[half_] = tonesOf(radiance);
         launch.radiance.at[planeIndex(pixel, half_)] = radiance;
-        launch.filtered.at[planeIndex(pixel, half_)] = tones[half_];
-        launch.guides.at[planeIndex(pixel, half_)] = tones[half_];
+        // Where guides are made of the tones, they alone have no border yet.
+        if (launch.use == kMeansOfTones) launch.filtered.at[planeIndex(pixel, half_)] = tones[half_];
+        if (launch.use == kMeansToGuides || !isInside(pixel)) launch.guides.at[planeIndex(pixel, half_)] = tones[half_];
     }
     if (!isInside(pixel)) return;
     vec3 difference = tones[0].rgb - tones[1].rgb;

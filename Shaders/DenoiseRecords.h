@@ -26,8 +26,9 @@ const int kDenoiseRows = 16;
 // has to ask where it is. One more than these reach: so the pitch is a whole number of lines of memory.
 const int kDenoiseBorder = kDenoiseReach + kDenoisePatchReach + 1;
 const int kDenoiseTileReach = kDenoiseTile + 2 * kDenoiseReach; // pixels a side of what a tile's pixels are fitted by
-const uint kDenoiseSums = 10u;                                  // of a work group: see DenoiseBlend.comp;
-const uint kDenoiseMixSums = 8u;                                // from here on those of DenoiseMix.comp
+const uint kDenoiseSums = 12u;                                  // of a work group: see DenoiseBlend.comp;
+const uint kDenoiseMixSums = 8u;                                // from here on those of DenoiseMix.comp,
+const uint kDenoiseCoarseSums = 10u;                            // and those of DenoiseCoarse.comp
 
 // What a pass that averages over squares does with the means.
 const uint kMeansAsTheyAre = 0u;
@@ -47,7 +48,8 @@ struct DenoiseLaunch {
     PixelPlane features;         // of the surface, of what is in reach of each tile
     MutableWordArray axes;       // how many of these each tile has
     PixelPlane filtered;         // by each candidate: radiance; the two factors, packed. Before that, bordered: the
-                                 // tones that guides are made of, and their variance
+                                 // tones that guides are made of, and their variance. In the end what has been taken
+                                 // away from each half, in the mean of the pixels around
     PixelPlane values;           // what is averaged over squares: variances; errors of the candidates; squared errors.
                                  // Between the last two: the weight of each candidate
     PixelPlane means;            // of these

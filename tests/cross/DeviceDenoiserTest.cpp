@@ -137,8 +137,9 @@ TEST_F(DeviceDenoiserTest, LeavesPixelsAsTheyAre) {
     EXPECT_GT(denoiseOnDevice(input, 2).shares.back(), 0.01);
 }
 
-// On either side of the number of samples from which on pictures are mixed.
+// On either side of the numbers of samples from which on something is given back, and pictures are mixed.
 TEST_F(DeviceDenoiserTest, MixesAsTheCpuDoes) {
+    expectTheSame(noisyInput(97, 61, shared::kDenoiseCoarseSamples), 1);
     expectTheSame(noisyInput(97, 61, shared::kDenoiseMixSamples - 1), 1);
     expectTheSame(noisyInput(97, 61, shared::kDenoiseMixSamples), 1);
 }

@@ -32,6 +32,7 @@ struct Halves {
     // With fewer samples too many pixels look free of noise.
     bool mayStayRaw() const { return samplesOfHalf >= shared::kDenoiseRawSamples; }
     bool hasRawGuides() const { return samplesOfHalf >= shared::kDenoiseRawGuideSamples; }
+    bool isGivenBack() const { return samplesOfHalf >= shared::kDenoiseCoarseSamples; }
     bool isMixed() const { return samplesOfHalf >= shared::kDenoiseMixSamples; }
 };
 

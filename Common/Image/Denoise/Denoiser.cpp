@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "Common/Core/Parallel.h"
+#include "Common/Image/Denoise/Blended.h"
 #include "Common/Image/Denoise/DenoiseFilter.h"
+#include "Common/Image/Denoise/Mix.h"
 #include "Common/Image/Denoise/Planes.h"
 #include "Common/Image/Metrics.h"
 #include "Common/Shared/Denoise/DenoiseFit.h"
@@ -38,23 +40,12 @@ Half makeHalf(const Image& image, std::size_t threads) {
 
 // ---- choosing ------------------------------------------------------------------------------------------------------
 
-constexpr std::size_t kRaw = kDenoiseBandwidths; // the candidate that leaves a pixel as it is
-
-// The value of a candidate in place of a pixel of a half, in radiance.
-shared::DenoisedValue valueOf(const Halves& halves, std::size_t candidate, std::size_t half, std::size_t channel,
-                              std::size_t x, std::size_t y) {
-    const float raw = halves.half[half].radiance[channel].row(y)[x];
-    if (candidate == kRaw) return {raw, raw, 1, 0};
-    return {halves.filtered[candidate][half][channel].row(y)[x], raw, halves.ownFactors[candidate][half].row(y)[x],
-            halves.partnerFactors[candidate][half].row(y)[x]};
-}
-
 // Of each pixel by the means around it.
 Plane choiceErrors(const Plane& errors, std::size_t threads) {
     const auto width = static_cast<int>(errors.width()), height = static_cast<int>(errors.height());
     Plane result(errors.width(), errors.height());
     parallelFor(threads, errors.height(), [&](std::size_t row) {
-        const int y = static_cast<int>(row), reach = shared::kDenoiseErrorReach;
+        const int y = static_cast<int>(row), reach = shared::kDenoiseChoiceReach;
         for (int x = 0; x < width; ++x) {
             float sum = 0, others = 0;
             int count = 0, otherCount = 0;
@@ -91,18 +82,16 @@ Plane candidateErrors(const Halves& halves, std::size_t candidate, std::size_t t
             }
     });
     Plane means = choiceErrors(errors, threads);
-    if (candidate == kRaw)
+    if (candidate == kRawCandidate)
         for (std::size_t y = 0; y < means.height(); ++y)
             for (std::size_t x = 0; x < means.width(); ++x) means.row(y)[x] *= shared::kDenoiseRawCaution;
     return means;
 }
 
-using Choice = std::array<Plane, kDenoiseCandidates>; // the weight of each candidate in a pixel
-
 // 1 for the candidate of the least error.
 Choice choose(const Halves& halves, std::size_t threads) {
     const std::size_t width = halves.variance.width(), height = halves.variance.height();
-    const std::size_t candidates = halves.mayStayRaw() ? kDenoiseCandidates : kRaw;
+    const std::size_t candidates = halves.mayStayRaw() ? kDenoiseCandidates : kRawCandidate;
     Choice errors, chosen;
     for (std::size_t i = 0; i < kDenoiseCandidates; ++i) {
         errors[i] = candidateErrors(halves, i, threads);
@@ -123,103 +112,6 @@ double meanOf(const Plane& plane) {
     for (std::size_t y = 0; y < plane.height(); ++y)
         for (std::size_t x = 0; x < plane.width(); ++x) sum += plane.row(y)[x];
     return sum / (static_cast<double>(plane.width()) * static_cast<double>(plane.height()));
-}
-
-// A pixel's value by all candidates.
-shared::DenoisedValue blended(const Halves& halves, const Choice& weights, std::size_t half, std::size_t channel,
-                              std::size_t x, std::size_t y) {
-    shared::DenoisedValue sum{0, halves.half[half].radiance[channel].row(y)[x], 0, 0};
-    for (std::size_t i = 0; i < kDenoiseCandidates; ++i) {
-        const float weight = weights[i].row(y)[x];
-        const shared::DenoisedValue value = valueOf(halves, i, half, channel, x, y);
-        sum.filtered += weight * value.filtered;
-        sum.ownFactor += weight * value.ownFactor;
-        sum.partnerFactor += weight * value.partnerFactor;
-    }
-    return sum;
-}
-
-// ---- the error that is left ----------------------------------------------------------------------------------------
-
-// The mean difference of the raw halves of those pixels of a 2x2 square that are not the one at hand.
-float partnerNoise(const Halves& halves, std::size_t channel, std::size_t x, std::size_t y) {
-    if (halves.dependentSide == 1) return 0;
-    float sum = 0;
-    int count = 0;
-    for (const auto& [px, py] : {std::pair{x ^ 1, y}, std::pair{x, y ^ 1}, std::pair{x ^ 1, y ^ 1}}) {
-        if (px >= halves.variance.width() || py >= halves.variance.height()) continue;
-        sum += halves.half[0].radiance[channel].row(py)[px] - halves.half[1].radiance[channel].row(py)[px];
-        ++count;
-    }
-    return count > 0 ? sum / static_cast<float>(count) : 0;
-}
-
-// Of one channel of a pixel.
-struct Blended {
-    shared::DenoisedValue a, b; // both halves
-    float mean;                 // of them
-    float noise;                // of the mean: half of theirs, squared
-    float error;                // of the mean, squared, as estimated
-};
-
-Blended blendedAt(const Halves& halves, const Choice& weights, std::size_t channel, std::size_t x, std::size_t y) {
-    Blended result;
-    result.a = blended(halves, weights, 0, channel, x, y);
-    result.b = blended(halves, weights, 1, channel, x, y);
-    const float difference = result.a.filtered - result.b.filtered;
-    result.mean = 0.5f * (result.a.filtered + result.b.filtered);
-    result.noise = 0.25f * difference * difference;
-    result.error = shared::denoiseError(result.a, result.b, partnerNoise(halves, channel, x, y)) - result.noise;
-    return result;
-}
-
-// ---- how much of the filter is kept --------------------------------------------------------------------------------
-
-constexpr std::size_t kCellSide = shared::kDenoiseCell;
-
-struct MixCells {
-    Plane gain, change; // of each cell
-};
-
-MixCells sumCells(const Halves& halves, const Choice& weights, std::size_t threads) {
-    const std::size_t width = halves.variance.width(), height = halves.variance.height();
-    const std::size_t columns = (width + kCellSide - 1) / kCellSide, rows = (height + kCellSide - 1) / kCellSide;
-    MixCells cells{Plane(columns, rows), Plane(columns, rows)};
-    parallelFor(threads, rows, [&](std::size_t row) {
-        for (std::size_t y = row * kCellSide; y < std::min(height, (row + 1) * kCellSide); ++y)
-            for (std::size_t x = 0; x < width; ++x)
-                for (std::size_t c = 0; c < 3; ++c) {
-                    const Blended pixel = blendedAt(halves, weights, c, x, y);
-                    const shared::DenoiseMix mix = shared::denoiseMix(pixel.a, pixel.b, pixel.error);
-                    cells.gain.row(row)[x / kCellSide] += mix.gain;
-                    cells.change.row(row)[x / kCellSide] += mix.change;
-                }
-    });
-    return cells;
-}
-
-float interpolated(const Plane& cells, const shared::DenoiseCellPlace& x, const shared::DenoiseCellPlace& y) {
-    const auto at = [&cells](int column, int row) {
-        column = std::clamp(column, 0, static_cast<int>(cells.width()) - 1);
-        return cells.row(static_cast<std::size_t>(std::clamp(row, 0, static_cast<int>(cells.height()) - 1)))[column];
-    };
-    const auto inRow = [&](int row) { return std::lerp(at(x.first, row), at(x.first + 1, row), x.fraction); };
-    return std::lerp(inRow(y.first), inRow(y.first + 1), y.fraction);
-}
-
-// Gives a part of each pixel back to what it was.
-void mixWithRaw(const Halves& halves, Choice& weights, std::size_t threads) {
-    const MixCells cells = sumCells(halves, weights, threads);
-    parallelFor(threads, halves.variance.height(), [&](std::size_t row) {
-        const shared::DenoiseCellPlace y = shared::denoiseCellPlace(static_cast<int>(row));
-        for (std::size_t column = 0; column < halves.variance.width(); ++column) {
-            const shared::DenoiseCellPlace x = shared::denoiseCellPlace(static_cast<int>(column));
-            const float share =
-                shared::denoiseFilterShare({interpolated(cells.gain, x, y), interpolated(cells.change, x, y)});
-            for (Plane& weight : weights) weight.row(row)[column] *= share;
-            weights[kRaw].row(row)[column] += 1 - share;
-        }
-    });
 }
 
 // ---- the result ----------------------------------------------------------------------------------------------------
@@ -254,13 +146,13 @@ Choice blend(const Choice& chosen, std::size_t threads) {
     Choice weights;
     for (std::size_t i = 0; i < kDenoiseCandidates; ++i)
         weights[i] = boxMean(chosen[i], shared::kDenoiseBlendReach, threads);
-    const Plane raw = boxMean(chosen[kRaw], shared::kDenoiseRawBlendReach, threads);
+    const Plane raw = boxMean(chosen[kRawCandidate], shared::kDenoiseRawBlendReach, threads);
     for (std::size_t y = 0; y < raw.height(); ++y)
         for (std::size_t x = 0; x < raw.width(); ++x) {
             const float newRaw = raw.row(y)[x];
-            const float scale = shared::denoiseFilterScale(weights[kRaw].row(y)[x], newRaw);
-            for (std::size_t i = 0; i < kRaw; ++i) weights[i].row(y)[x] *= scale;
-            weights[kRaw].row(y)[x] = newRaw;
+            const float scale = shared::denoiseFilterScale(weights[kRawCandidate].row(y)[x], newRaw);
+            for (std::size_t i = 0; i < kRawCandidate; ++i) weights[i].row(y)[x] *= scale;
+            weights[kRawCandidate].row(y)[x] = newRaw;
         }
     return weights;
 }
@@ -275,6 +167,7 @@ void finish(const Halves& halves, Denoised& result, std::size_t threads) {
     parallelFor(threads, height, [&](std::size_t y) { rows[y] = finishRow(halves, weights, y, result, errors); });
     DenoiseErrorSums sums;
     for (const DenoiseErrorSums& row : rows) sums += row;
+    if (halves.isGivenBack()) giveBack(halves, result, threads);
     result.relmse = denoisedRelMse(sums, width * height, halves.dependentSide);
     for (std::size_t c = 0; c < 3; ++c) {
         errors[c] = boxMean(errors[c], shared::kDenoiseErrorReach, threads);

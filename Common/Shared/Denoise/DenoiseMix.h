@@ -11,13 +11,20 @@
 
 RT_SHARED_BEGIN
 
-const int kDenoiseCell = 16;                  // pixels a side
+const int kDenoiseCell = 32;                  // pixels a side
 RT_CONST float kDenoiseRelativeFloor = 0.01f; // of relMSE's denominator
 // Of each half, from which on a picture is mixed: with fewer, a cell's sums are mostly noise, which costs more than the
 // details are worth.
 const uint kDenoiseMixSamples = 32u;
 
-// Numerator and denominator of w.
+// What is left to mix then is coarser than a pixel. Where a filter blurs an edge or a highlight, it takes away about the
+// same from all pixels around, while their noise differs: the mean over some pixels of raw - filtered has most of the
+// one and little of the other, and shows the filter's error where single pixels do not. A part of that mean is given
+// back to each pixel.
+const int kDenoiseCoarseReach = 2;     // pixels in either direction, over which the mean is taken
+const uint kDenoiseCoarseSamples = 4u; // of each half, from which on it is done
+
+// Numerator and denominator of a part that is kept or given back.
 struct DenoiseMix {
     float gain;
     float change;
@@ -48,8 +55,26 @@ RT_FN DenoiseMix denoiseMix(DenoisedValue a, DenoisedValue b, float error) {
     return mix;
 }
 
-// w. Where the filter has changed nothing, all is kept.
-RT_FN float denoiseFilterShare(DenoiseMix mix) {
+// Of one channel of a pixel, by means over the pixels around: of what the filter took away from each half, and of half of
+// the difference of the raw halves. The part v of the mean r of both residuals that makes the error least is 1 less the
+// share of r's square that is noise, and that is the noise of r times the noise of the raw mean, for which half of both
+// halves' difference stands (James and Stein 1961, "Estimation with Quadratic Loss", with the noise measured).
+RT_FN DenoiseMix denoiseCoarseMix(float residualA, float residualB, float halfDifference, float filtered) {
+    float residual = 0.5f * (residualA + residualB);
+    float noise = halfDifference * (0.5f * (residualA - residualB));
+    float unit = 1.0f / (filtered * filtered + kDenoiseRelativeFloor);
+    DenoiseMix mix;
+    mix.gain = unit * (residual * residual - noise);
+    mix.change = unit * residual * residual;
+    return mix;
+}
+
+RT_FN float denoiseGivenBack(float filtered, float residual) {
+    return max(filtered + residual, 0.0f);
+}
+
+// w, or v. Where the filter has changed nothing, all is kept.
+RT_FN float denoiseMixShare(DenoiseMix mix) {
     return mix.change > 0.0f ? clamp(mix.gain / mix.change, 0.0f, 1.0f) : 1.0f;
 }
 

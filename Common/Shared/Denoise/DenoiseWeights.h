@@ -12,8 +12,9 @@ RT_SHARED_BEGIN
 const int kDenoiseReach = 8;         // pixels from the one that is filtered, in either direction
 const int kDenoisePatchReach = 3;    // of the larger patch, 7x7
 const int kDenoiseVarianceReach = 3; // over so many pixels around it a pixel's variance is averaged
-const int kDenoiseErrorReach = 2;    // the same for the error by which a bandwidth is chosen,
-const int kDenoiseOwnReach = 1;      // once with the pixels so near and once without: see denoiseChoiceError()
+const int kDenoiseErrorReach = 2;    // the same for the error that is left,
+const int kDenoiseChoiceReach = 3;   // and for the error by which a bandwidth is chosen,
+const int kDenoiseOwnReach = 2;      // once with the pixels so near and once without: see denoiseChoiceError()
 const float kDenoiseMaxRadiance = 1.0e15f;
 
 // One of the filters among which each pixel chooses.
@@ -26,7 +27,7 @@ const uint kDenoiseBandwidths = 3u;
 RT_FN DenoiseBandwidth denoiseBandwidth(uint candidate) {
     DenoiseBandwidth result;
     result.patchReach = candidate == 0u ? 1 : kDenoisePatchReach;
-    result.bandwidth = candidate == 0u ? 1.0f : candidate == 1u ? 0.35f : 0.5f;
+    result.bandwidth = candidate == 0u ? 1.25f : candidate == 1u ? 0.35f : 0.7f;
     return result;
 }
 
