@@ -40,27 +40,43 @@ Half makeHalf(const Image& image, std::size_t threads) {
 
 // ---- choosing ------------------------------------------------------------------------------------------------------
 
-// Of each pixel by the means around it.
+// The pixels that are in reach of one, in one direction.
+int pixelsInReach(int at, int reach, int size) {
+    return std::min(at + reach, size - 1) - std::max(at - reach, 0) + 1;
+}
+
+// Of each pixel by the means around it: sums of rows, with and without what is nearest, then of these.
 Plane choiceErrors(const Plane& errors, std::size_t threads) {
+    constexpr int kReach = shared::kDenoiseChoiceReach, kOwn = shared::kDenoiseOwnReach;
     const auto width = static_cast<int>(errors.width()), height = static_cast<int>(errors.height());
-    Plane result(errors.width(), errors.height());
+    Plane sums(errors.width(), errors.height()), otherSums = sums, result = sums;
+    parallelFor(threads, errors.height(), [&](std::size_t y) {
+        const float* row = errors.row(y);
+        for (int offset = -kReach; offset <= kReach; ++offset) {
+            const int first = std::max(0, -offset), last = std::min(width, width - offset);
+            for (int x = first; x < last; ++x) sums.row(y)[x] += row[x + offset];
+            if (std::abs(offset) > kOwn)
+                for (int x = first; x < last; ++x) otherSums.row(y)[x] += row[x + offset];
+        }
+    });
     parallelFor(threads, errors.height(), [&](std::size_t row) {
-        const int y = static_cast<int>(row), reach = shared::kDenoiseChoiceReach;
+        const int y = static_cast<int>(row);
+        std::vector<float> all(errors.width()), others(errors.width());
+        for (int v = std::max(y - kReach, 0); v <= std::min(y + kReach, height - 1); ++v) {
+            const float* sum = sums.row(static_cast<std::size_t>(v));
+            const float* other = std::abs(v - y) > kOwn ? sum : otherSums.row(static_cast<std::size_t>(v));
+            for (std::size_t x = 0; x < errors.width(); ++x) {
+                all[x] += sum[x];
+                others[x] += other[x];
+            }
+        }
         for (int x = 0; x < width; ++x) {
-            float sum = 0, others = 0;
-            int count = 0, otherCount = 0;
-            for (int v = std::max(y - reach, 0); v <= std::min(y + reach, height - 1); ++v)
-                for (int u = std::max(x - reach, 0); u <= std::min(x + reach, width - 1); ++u) {
-                    const float error = errors.row(static_cast<std::size_t>(v))[u];
-                    sum += error;
-                    ++count;
-                    if (std::max(std::abs(u - x), std::abs(v - y)) <= shared::kDenoiseOwnReach) continue;
-                    others += error;
-                    ++otherCount;
-                }
-            const float mean = sum / static_cast<float>(count);
+            const auto at = static_cast<std::size_t>(x);
+            const int count = pixelsInReach(x, kReach, width) * pixelsInReach(y, kReach, height);
+            const int otherCount = count - pixelsInReach(x, kOwn, width) * pixelsInReach(y, kOwn, height);
+            const float mean = all[at] / static_cast<float>(count);
             result.row(row)[x] =
-                otherCount > 0 ? shared::denoiseChoiceError(mean, others / static_cast<float>(otherCount)) : mean;
+                otherCount > 0 ? shared::denoiseChoiceError(mean, others[at] / static_cast<float>(otherCount)) : mean;
         }
     });
     return result;
