@@ -6,6 +6,19 @@ layout(push_constant, scalar) uniform Launch { DenoiseLaunch launch; };
 
 const uint kRawCandidate = kDenoiseBandwidths; // leaves a pixel as it is
 
+// Of the work group's pixels and those in reach of them, counted row by row.
+ivec2 pixelInReach(int at, int reach) {
+    int columns = kDenoiseColumns + 2 * reach;
+    ivec2 first = ivec2(gl_WorkGroupID.xy) * ivec2(kDenoiseColumns, kDenoiseRows) - reach;
+    return first + ivec2(at % columns, at / columns);
+}
+
+// How many of the image are in the square around one.
+int pixelsInReach(ivec2 pixel, int reach) {
+    ivec2 size = min(pixel + reach, ivec2(launch.width, launch.height) - 1) - max(pixel - reach, ivec2(0)) + 1;
+    return size.x * size.y;
+}
+
 // In a bordered plane of a half; up to kDenoiseBorder pixels outside of the image.
 int planeIndex(ivec2 pixel, int half_) {
     return (half_ * denoisePlaneRows(launch.height) + pixel.y + kDenoiseBorder) * denoisePitch(launch.width) + pixel.x +

@@ -8,12 +8,10 @@
 
 layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
 
-const uint kGroupSize = uint(kDenoiseColumns * kDenoiseRows);
-
 // Of each invocation, then of all: relative errors, the least that these can be, their squares; the weight of each
 // candidate.
-shared vec4 sharedErrors[kGroupSize];
-shared vec4 sharedShares[kGroupSize];
+shared vec4 sharedErrors[kDenoiseGroupSize];
+shared vec4 sharedShares[kDenoiseGroupSize];
 
 // The weight of each candidate.
 vec4 sharesAt(ivec2 pixel) {
@@ -49,14 +47,14 @@ void main() {
         sharedShares[lane] = shares;
         sharedErrors[lane] = finish(pixel, shares);
     }
-    for (uint other = kGroupSize / 2u; other > 0u; other /= 2u) {
+    for (uint other = uint(kDenoiseGroupSize) / 2u; other > 0u; other /= 2u) {
         barrier();
         if (lane >= other) continue;
         sharedErrors[lane] += sharedErrors[lane + other];
         sharedShares[lane] += sharedShares[lane + other];
     }
     if (lane != 0u) return;
-    uint at = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * kDenoiseSums;
+    uint at = firstSumOf(ivec2(gl_WorkGroupID.xy));
     for (int i = 0; i < 4; i++) {
         launch.sums.at[at + i] = sharedErrors[0][i];
         launch.sums.at[at + 4 + i] = sharedShares[0][i];

@@ -1,11 +1,31 @@
-// How much of the filter is kept where a work group is, by the sums of the cell that it is in and of those around.
+// How much of the filter is kept, by the sums of cells: of the one that a work group is in and of those around.
 // After Denoise.glsl.
 #include "Common/Shared/Denoise/DenoiseMix.h"
 
 const int kGroupColumnsOfCell = kDenoiseCell / kDenoiseColumns;
 const int kGroupRowsOfCell = kDenoiseCell / kDenoiseRows;
 
-shared vec2 cellSums[9]; // gain and change, row by row
+// Gain and change:
+shared vec2 groupMix[kDenoiseGroupSize]; // of each invocation, then of all
+shared vec2 cellSums[9];                 // of the cell and those around, row by row
+
+uint firstSumOf(ivec2 group) {
+    return (uint(group.y) * gl_NumWorkGroups.x + uint(group.x)) * kDenoiseSums;
+}
+
+// The work group's part of its cell's sums. All invocations call it.
+void writeMix(vec2 mix, uint firstSum) {
+    int lane = int(gl_LocalInvocationIndex);
+    groupMix[lane] = mix;
+    for (int other = kDenoiseGroupSize / 2; other > 0; other /= 2) {
+        barrier();
+        if (lane < other) groupMix[lane] += groupMix[lane + other];
+    }
+    if (lane != 0) return;
+    uint at = firstSumOf(ivec2(gl_WorkGroupID.xy)) + firstSum;
+    launch.sums.at[at] = groupMix[0].x;
+    launch.sums.at[at + 1u] = groupMix[0].y;
+}
 
 ivec2 cellOf(uvec2 group) {
     return ivec2(group) / ivec2(kGroupColumnsOfCell, kGroupRowsOfCell);
@@ -19,7 +39,7 @@ vec2 sumsOfCell(ivec2 cell, uint firstSum) {
     vec2 sum = vec2(0.0f);
     for (int y = first.y; y < min(first.y + kGroupRowsOfCell, groups.y); y++)
         for (int x = first.x; x < min(first.x + kGroupColumnsOfCell, groups.x); x++) {
-            uint at = uint(y * groups.x + x) * kDenoiseSums + firstSum;
+            uint at = firstSumOf(ivec2(x, y)) + firstSum;
             sum += vec2(launch.sums.at[at], launch.sums.at[at + 1u]);
         }
     return sum;

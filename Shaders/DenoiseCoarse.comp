@@ -4,11 +4,10 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #include "Denoise.glsl"
-#include "Common/Shared/Denoise/DenoiseMix.h"
+#include "DenoiseCells.glsl"
 
 layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
 
-const uint kGroupSize = uint(kDenoiseColumns * kDenoiseRows);
 const int kColumns = kDenoiseColumns + 2 * kDenoiseCoarseReach; // of pixels that are averaged
 const int kRows = kDenoiseRows + 2 * kDenoiseCoarseReach;
 
@@ -20,11 +19,9 @@ shared vec3 halfDifferences[kRows * kColumns];
 shared vec3 rowsA[kRows * kDenoiseColumns];
 shared vec3 rowsB[kRows * kDenoiseColumns];
 shared vec3 rowDifferences[kRows * kDenoiseColumns];
-shared vec2 sharedMix[kGroupSize]; // of each invocation, then of all
 
-void loadResiduals(uint at) {
-    ivec2 corner = ivec2(gl_WorkGroupID.xy) * ivec2(kDenoiseColumns, kDenoiseRows) - kDenoiseCoarseReach;
-    ivec2 pixel = corner + ivec2(int(at) % kColumns, int(at) / kColumns);
+void loadResiduals(int at) {
+    ivec2 pixel = pixelInReach(at, kDenoiseCoarseReach);
     residualsA[at] = residualsB[at] = halfDifferences[at] = vec3(0.0f);
     if (!isInside(pixel)) return;
     vec3 rawA = launch.radiance.at[planeIndex(pixel, 0)].rgb;
@@ -35,8 +32,8 @@ void loadResiduals(uint at) {
     halfDifferences[at] = 0.5f * (rawA - rawB);
 }
 
-void sumRow(uint at) {
-    int first = int(at) / kDenoiseColumns * kColumns + int(at) % kDenoiseColumns;
+void sumRow(int at) {
+    int first = at / kDenoiseColumns * kColumns + at % kDenoiseColumns;
     vec3 a = vec3(0.0f), b = vec3(0.0f), difference = vec3(0.0f);
     for (int i = first; i <= first + 2 * kDenoiseCoarseReach; i++) {
         a += residualsA[i];
@@ -48,14 +45,6 @@ void sumRow(uint at) {
     rowDifferences[at] = difference;
 }
 
-// Of one over the number of pixels of the image that are in reach.
-float shareOfPixel(ivec2 pixel) {
-    ivec2 first = max(pixel - kDenoiseCoarseReach, ivec2(0));
-    ivec2 last = min(pixel + kDenoiseCoarseReach, ivec2(launch.width, launch.height) - 1);
-    ivec2 size = last - first + 1;
-    return 1.0f / float(size.x * size.y);
-}
-
 // Writes the means; returns a pixel's part of the sums.
 vec2 finish(ivec2 pixel) {
     vec3 a = vec3(0.0f), b = vec3(0.0f), difference = vec3(0.0f);
@@ -65,7 +54,7 @@ vec2 finish(ivec2 pixel) {
         b += rowsB[at];
         difference += rowDifferences[at];
     }
-    float share = shareOfPixel(pixel);
+    float share = 1.0f / float(pixelsInReach(pixel, kDenoiseCoarseReach));
     a *= share;
     b *= share;
     difference *= share;
@@ -83,18 +72,10 @@ vec2 finish(ivec2 pixel) {
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    uint lane = gl_LocalInvocationIndex;
-    for (uint at = lane; at < uint(kRows * kColumns); at += kGroupSize) loadResiduals(at);
+    int lane = int(gl_LocalInvocationIndex);
+    for (int at = lane; at < kRows * kColumns; at += kDenoiseGroupSize) loadResiduals(at);
     barrier();
-    for (uint at = lane; at < uint(kRows * kDenoiseColumns); at += kGroupSize) sumRow(at);
+    for (int at = lane; at < kRows * kDenoiseColumns; at += kDenoiseGroupSize) sumRow(at);
     barrier();
-    sharedMix[lane] = isInside(pixel) ? finish(pixel) : vec2(0.0f);
-    for (uint other = kGroupSize / 2u; other > 0u; other /= 2u) {
-        barrier();
-        if (lane < other) sharedMix[lane] += sharedMix[lane + other];
-    }
-    if (lane != 0u) return;
-    uint at = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * kDenoiseSums + kDenoiseCoarseSums;
-    launch.sums.at[at] = sharedMix[0].x;
-    launch.sums.at[at + 1u] = sharedMix[0].y;
+    writeMix(isInside(pixel) ? finish(pixel) : vec2(0.0f), kDenoiseCoarseSums);
 }

@@ -18,18 +18,16 @@ const int kPatchColumns = kDenoiseColumns + 2 * kDenoiseGuidePatchReach;
 const int kPatchRows = kDenoiseRows + 2 * kDenoiseGuidePatchReach;
 shared float distances[kOffsets * kPatchRows * kPatchColumns];
 
-const int kInvocations = kDenoiseColumns * kDenoiseRows;
-
 // All of it is inside of the planes' border, which is wider.
-void loadTones(ivec2 first, int half_) {
-    for (int i = int(gl_LocalInvocationIndex); i < kRows * kColumns; i += kInvocations)
-        tones[i] = tonesAt(first + ivec2(i % kColumns, i / kColumns), half_);
+void loadTones(int half_) {
+    for (int i = int(gl_LocalInvocationIndex); i < kRows * kColumns; i += kDenoiseGroupSize)
+        tones[i] = tonesAt(pixelInReach(i, kDenoiseGuideBorder), half_);
     barrier();
 }
 
 void measure(int down) {
     barrier(); // those before have been read
-    for (int place = int(gl_LocalInvocationIndex); place < kPatchRows * kPatchColumns; place += kInvocations) {
+    for (int place = int(gl_LocalInvocationIndex); place < kPatchRows * kPatchColumns; place += kDenoiseGroupSize) {
         int here = (place / kPatchColumns + kDenoiseGuideReach) * kColumns + place % kPatchColumns + kDenoiseGuideReach;
         int there = here + down * kColumns - kDenoiseGuideReach;
         vec4 tone = tones[here];
@@ -52,10 +50,9 @@ float patchDistance(int offset) {
 }
 
 void main() {
-    ivec2 group = ivec2(gl_WorkGroupID.xy) * ivec2(kDenoiseColumns, kDenoiseRows);
     int half_ = int(gl_WorkGroupID.z);
-    loadTones(group - kDenoiseGuideBorder, half_);
-    ivec2 pixel = group + ivec2(gl_LocalInvocationID.xy);
+    loadTones(half_);
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     int here = (int(gl_LocalInvocationID.y) + kDenoiseGuideBorder) * kColumns + int(gl_LocalInvocationID.x) +
                kDenoiseGuideBorder;
     vec4 own = tones[here];

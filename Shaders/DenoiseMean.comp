@@ -1,5 +1,5 @@
-// Means over the pixels of the image in a square around each: sums of rows, which pixels above each other share, then of
-// these.
+// Means over the pixels of the image in a square around each: sums of rows, which pixels above each other share, then
+// of these.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
@@ -8,7 +8,6 @@
 
 layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
 
-const uint kGroupSize = uint(kDenoiseColumns * kDenoiseRows);
 const int kMaxReach = max(kDenoiseVarianceReach, max(kDenoiseChoiceReach, kDenoiseErrorReach));
 const int kColumns = kDenoiseColumns + 2 * kMaxReach; // of pixels in reach
 const int kRows = kDenoiseRows + 2 * kMaxReach;
@@ -22,14 +21,13 @@ int reachOfUse() {
     return launch.use == kMeansPositive ? kDenoiseErrorReach : kDenoiseVarianceReach;
 }
 
-void load(uint at) {
-    ivec2 corner = ivec2(gl_WorkGroupID.xy) * ivec2(kDenoiseColumns, kDenoiseRows) - kMaxReach;
-    ivec2 pixel = corner + ivec2(int(at) % kColumns, int(at) / kColumns);
+void load(int at) {
+    ivec2 pixel = pixelInReach(at, kMaxReach);
     values[at] = isInside(pixel) ? launch.values.at[pixelIndex(pixel)] : vec4(0.0f);
 }
 
-void sumRow(uint at, int reach) {
-    int middle = int(at) / kDenoiseColumns * kColumns + int(at) % kDenoiseColumns + kMaxReach;
+void sumRow(int at, int reach) {
+    int middle = at / kDenoiseColumns * kColumns + at % kDenoiseColumns + kMaxReach;
     vec4 sum = vec4(0.0f), others = vec4(0.0f);
     for (int x = -reach; x <= reach; x++) {
         vec4 value = values[middle + x];
@@ -38,11 +36,6 @@ void sumRow(uint at, int reach) {
     }
     rowSums[at] = sum;
     otherSums[at] = others;
-}
-
-int pixelsInReach(ivec2 pixel, int reach) {
-    ivec2 size = min(pixel + reach, ivec2(launch.width, launch.height) - 1) - max(pixel - reach, ivec2(0)) + 1;
-    return size.x * size.y;
 }
 
 void write(ivec2 pixel, int reach) {
@@ -76,9 +69,10 @@ void write(ivec2 pixel, int reach) {
 void main() {
     int reach = reachOfUse();
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    for (uint at = gl_LocalInvocationIndex; at < uint(kRows * kColumns); at += kGroupSize) load(at);
+    int lane = int(gl_LocalInvocationIndex);
+    for (int at = lane; at < kRows * kColumns; at += kDenoiseGroupSize) load(at);
     barrier();
-    for (uint at = gl_LocalInvocationIndex; at < uint(kRows * kDenoiseColumns); at += kGroupSize) sumRow(at, reach);
+    for (int at = lane; at < kRows * kDenoiseColumns; at += kDenoiseGroupSize) sumRow(at, reach);
     barrier();
     if (isInside(pixel)) write(pixel, reach);
 }

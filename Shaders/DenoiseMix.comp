@@ -4,18 +4,15 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #include "DenoiseBlended.glsl"
-#include "Common/Shared/Denoise/DenoiseMix.h"
+#include "DenoiseCells.glsl"
 
 layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
-
-const uint kGroupSize = uint(kDenoiseColumns * kDenoiseRows);
 
 const int kColumns = kDenoiseColumns + 2 * kDenoiseBlendReach; // of pixels whose choices count
 const int kRows = kDenoiseRows + 2 * kDenoiseBlendReach;
 const uint kNoChoice = 4u; // of what is outside of the image
 
 shared uint choices[kRows * kColumns];
-shared vec2 sharedMix[kGroupSize]; // of each invocation, then of all
 
 // The candidate of the least error.
 uint choiceAt(ivec2 pixel) {
@@ -26,16 +23,15 @@ uint choiceAt(ivec2 pixel) {
     return best;
 }
 
-void loadChoice(uint at) {
-    ivec2 corner = ivec2(gl_WorkGroupID.xy) * ivec2(kDenoiseColumns, kDenoiseRows) - kDenoiseBlendReach;
-    ivec2 pixel = corner + ivec2(int(at) % kColumns, int(at) / kColumns);
+void loadChoice(int at) {
+    ivec2 pixel = pixelInReach(at, kDenoiseBlendReach);
     choices[at] = isInside(pixel) ? choiceAt(pixel) : kNoChoice;
 }
 
 // Of each candidate: the share of the pixels around that chose it.
 vec4 shareOfChoices(int reach) {
-    int middle =
-        (int(gl_LocalInvocationID.y) + kDenoiseBlendReach) * kColumns + int(gl_LocalInvocationID.x) + kDenoiseBlendReach;
+    ivec2 place = ivec2(gl_LocalInvocationID.xy) + kDenoiseBlendReach;
+    int middle = place.y * kColumns + place.x;
     vec4 sum = vec4(0.0f);
     for (int y = -reach; y <= reach; y++)
         for (int x = -reach; x <= reach; x++)
@@ -67,24 +63,16 @@ DenoiseMix mixAt(vec4 shares, ivec2 pixel) {
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    uint lane = gl_LocalInvocationIndex;
-    for (uint at = lane; at < uint(kRows * kColumns); at += kGroupSize) loadChoice(at);
-    sharedMix[lane] = vec2(0.0f);
+    for (int at = int(gl_LocalInvocationIndex); at < kRows * kColumns; at += kDenoiseGroupSize) loadChoice(at);
     barrier();
+    vec2 sum = vec2(0.0f);
     if (isInside(pixel)) {
         vec4 shares = blend();
         launch.values.at[pixelIndex(pixel)] = shares;
         if (launch.mixed != 0u) {
             DenoiseMix mix = mixAt(shares, pixel);
-            sharedMix[lane] = vec2(mix.gain, mix.change);
+            sum = vec2(mix.gain, mix.change);
         }
     }
-    for (uint other = kGroupSize / 2u; other > 0u; other /= 2u) {
-        barrier();
-        if (lane < other) sharedMix[lane] += sharedMix[lane + other];
-    }
-    if (lane != 0u) return;
-    uint at = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * kDenoiseSums + kDenoiseMixSums;
-    launch.sums.at[at] = sharedMix[0].x;
-    launch.sums.at[at + 1u] = sharedMix[0].y;
+    writeMix(sum, kDenoiseMixSums);
 }

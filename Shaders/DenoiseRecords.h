@@ -22,6 +22,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer PixelPlane 
 // Pixels of a work group that filters.
 const int kDenoiseColumns = 8;
 const int kDenoiseRows = 16;
+const int kDenoiseGroupSize = kDenoiseColumns * kDenoiseRows;
 // Around the image, bordered planes have what is in reach of the patches of what is in reach: zeros, so that nothing
 // has to ask where it is. One more than these reach: so the pitch is a whole number of lines of memory.
 const int kDenoiseBorder = kDenoiseReach + kDenoisePatchReach + 1;

@@ -58,7 +58,7 @@ bug 'no stop at an edge' DenoiseWeights.h 's/0\.125f \* perSquaredBandwidth/0.0f
 bug 'an error without what is left of the noise' DenoiseWeights.h 's/a\.ownFactor \+ b\.ownFactor - 1\.0f/-1.0f/' unit.Denoiser
 bug 'features that know the noise of the picture' PathKernel.h 's/kFeatureReplicate, 0u\)/0u, 0u)/' image.CpuEngine
 bug 'noise of one half that is given back' DenoiseMix.h 's/ - denoiseMixCorrection\(a, b\)//' unit.DenoiseMix
-bug 'noise that is given back as an error of the filter' DenoiseMix.h 's/residual \* residual - noise/residual * residual/' unit.DenoiseMix
+bug 'noise that is given back as error' DenoiseMix.h 's/residual \* residual - noise/residual * residual/' unit.DenoiseMix
 bug 'live weights from the half that is filtered' LiveDenoiser.cpp 's/levels_\[0\]\[1 - half\]\.radiance/levels_[0][half].radiance/' unit.LiveDenoiser
 bug 'weights of the device from the half that is filtered' DenoiseDistances.glsl 's/ivec2\(column, 0\), 1 - half_/ivec2(column, 0), half_/' cross.DeviceDenoiserTest
 bug 'rows of a fit that end alike' DenoiseFit.comp 's/float\(2 \* y \+ 1\)/float(2 * y)/' cross.DeviceDenoiserTest

@@ -27,22 +27,30 @@ double bestShare(double noise, double spoiled, double through) {
     return (raw - common) / (raw + filtered - 2 * common);
 }
 
-double measuredShare(float noise, float spoiled, float through) {
+// Of both halves' noise and the filter's own error, of so many pixels: mixAt(a, b, own).
+template <class MixAt>
+double measuredShare(float noise, float spoiled, const MixAt& mixAt) {
     constexpr int kPixels = 200000;
-    const float truth = 0.5f;
     std::mt19937 random(5);
     std::normal_distribution<float> normal;
     shared::DenoiseMix sum{0, 0};
-    const float error = spoiled * spoiled + through * through * noise * noise / 2;
     for (int i = 0; i < kPixels; ++i) {
         const float a = noise * normal(random), b = noise * normal(random), own = spoiled * normal(random);
-        const shared::DenoisedValue halfA{truth + through * a + own, truth + a, through, 0},
-            halfB{truth + through * b + own, truth + b, through, 0};
-        const shared::DenoiseMix mix = shared::denoiseMix(halfA, halfB, error);
+        const shared::DenoiseMix mix = mixAt(a, b, own);
         sum.gain += mix.gain;
         sum.change += mix.change;
     }
     return shared::denoiseMixShare(sum);
+}
+
+constexpr float kTruth = 0.5f;
+
+double measuredMixShare(float noise, float spoiled, float through) {
+    const float error = spoiled * spoiled + through * through * noise * noise / 2;
+    return measuredShare(noise, spoiled, [&](float a, float b, float own) {
+        return shared::denoiseMix({kTruth + through * a + own, kTruth + a, through, 0},
+                                  {kTruth + through * b + own, kTruth + b, through, 0}, error);
+    });
 }
 
 // Fixed seed. A share's standard deviation is below 0.005; units of relMSE, which vary with the pixel, shift it by less
@@ -50,30 +58,22 @@ double measuredShare(float noise, float spoiled, float through) {
 TEST(DenoiseMix, IsTheBestOfBothPictures) {
     for (const auto& [noise, spoiled, through] :
          {std::array{0.02f, 0.002f, 0.0f}, {0.02f, 0.02f, 0.0f}, {0.02f, 0.02f, 0.3f}, {0.01f, 0.03f, 0.1f}})
-        EXPECT_NEAR(measuredShare(noise, spoiled, through), bestShare(noise, spoiled, through), 0.025)
+        EXPECT_NEAR(measuredMixShare(noise, spoiled, through), bestShare(noise, spoiled, through), 0.025)
             << noise << ", " << spoiled << ", " << through;
 }
 
-// The same for what is given back of a residual: E (F + v (R - F) - truth)^2, where both halves are off by the same.
+// The best part of a residual to be given back, of a filter as bestShare() has it, which is off by the same in both
+// halves: by calculus on E (F + v (R - F) - truth)^2.
 double bestCoarseShare(double noise, double spoiled, double through) {
     const double raw = noise * noise / 2, kept = 1 - through;
     return (spoiled * spoiled - through * kept * raw) / (kept * kept * raw + spoiled * spoiled);
 }
 
 double measuredCoarseShare(float noise, float spoiled, float through) {
-    constexpr int kPixels = 200000;
-    const float truth = 0.5f;
-    std::mt19937 random(6);
-    std::normal_distribution<float> normal;
-    shared::DenoiseMix sum{0, 0};
-    for (int i = 0; i < kPixels; ++i) {
-        const float a = noise * normal(random), b = noise * normal(random), own = spoiled * normal(random);
-        const shared::DenoiseMix mix =
-            shared::denoiseCoarseMix((1 - through) * a - own, (1 - through) * b - own, 0.5f * (a - b), truth + own);
-        sum.gain += mix.gain;
-        sum.change += mix.change;
-    }
-    return shared::denoiseMixShare(sum);
+    const float kept = 1 - through;
+    return measuredShare(noise, spoiled, [&](float a, float b, float own) {
+        return shared::denoiseCoarseMix(kept * a - own, kept * b - own, 0.5f * (a - b), kTruth + own);
+    });
 }
 
 TEST(DenoiseMix, GivesBackThePartThatIsLeastOff) {
@@ -165,8 +165,8 @@ TEST(DenoiseMix, GivesBackWhatIsBlurred) {
         EXPECT_EQ(given.filtered.picture.data[i], 0.5f * (given.filtered.halfA.data[i] + given.filtered.halfB.data[i]));
 }
 
-// Where the filter is right, next to nothing of the noise may come back: a share of it that chance explains, whose square
-// is a part of the noise of a mean over 5x5. Cells have 41 independent means in each of three channels.
+// Where the filter is right, next to nothing of the noise may come back: a share of it that chance explains, whose
+// square is a part of the noise of a mean over 5x5. Cells have 41 independent means in each of three channels.
 TEST(DenoiseMix, NoiseIsNotGivenBack) {
     const image::Image truth = picture(kMixSide, kMixSide, kGrey);
     Blurred given = blurred(truth, 0.1f);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -17,8 +16,6 @@
 
 namespace rt::image {
 namespace {
-
-using shared::kDenoiseBandwidths;
 
 constexpr double kFormulaError = 0.1; // of the formula for the error, beside its noise
 
@@ -40,43 +37,33 @@ Half makeHalf(const Image& image, std::size_t threads) {
 
 // ---- choosing ------------------------------------------------------------------------------------------------------
 
-// The pixels that are in reach of one, in one direction.
-int pixelsInReach(int at, int reach, int size) {
-    return std::min(at + reach, size - 1) - std::max(at - reach, 0) + 1;
-}
-
 // Of each pixel by the means around it: sums of rows, with and without what is nearest, then of these.
 Plane choiceErrors(const Plane& errors, std::size_t threads) {
-    constexpr int kReach = shared::kDenoiseChoiceReach, kOwn = shared::kDenoiseOwnReach;
-    const auto width = static_cast<int>(errors.width()), height = static_cast<int>(errors.height());
-    Plane sums(errors.width(), errors.height()), otherSums = sums, result = sums;
-    parallelFor(threads, errors.height(), [&](std::size_t y) {
-        const float* row = errors.row(y);
-        for (int offset = -kReach; offset <= kReach; ++offset) {
-            const int first = std::max(0, -offset), last = std::min(width, width - offset);
-            for (int x = first; x < last; ++x) sums.row(y)[x] += row[x + offset];
-            if (std::abs(offset) > kOwn)
-                for (int x = first; x < last; ++x) otherSums.row(y)[x] += row[x + offset];
-        }
-    });
-    parallelFor(threads, errors.height(), [&](std::size_t row) {
-        const int y = static_cast<int>(row);
-        std::vector<float> all(errors.width()), others(errors.width());
-        for (int v = std::max(y - kReach, 0); v <= std::min(y + kReach, height - 1); ++v) {
-            const float* sum = sums.row(static_cast<std::size_t>(v));
-            const float* other = std::abs(v - y) > kOwn ? sum : otherSums.row(static_cast<std::size_t>(v));
-            for (std::size_t x = 0; x < errors.width(); ++x) {
-                all[x] += sum[x];
-                others[x] += other[x];
+    constexpr std::size_t kReach = shared::kDenoiseChoiceReach, kOwn = shared::kDenoiseOwnReach;
+    const std::size_t width = errors.width(), height = errors.height();
+    Plane rowSums(width, height), otherSums = rowSums, result = rowSums;
+    parallelFor(threads, height, [&](std::size_t y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            const InReach all(x, kReach, width), own(x, kOwn, width);
+            for (std::size_t from = all.first; from <= all.last; ++from) {
+                rowSums.row(y)[x] += errors.row(y)[from];
+                if (!own.contains(from)) otherSums.row(y)[x] += errors.row(y)[from];
             }
         }
-        for (int x = 0; x < width; ++x) {
-            const auto at = static_cast<std::size_t>(x);
-            const int count = pixelsInReach(x, kReach, width) * pixelsInReach(y, kReach, height);
-            const int otherCount = count - pixelsInReach(x, kOwn, width) * pixelsInReach(y, kOwn, height);
-            const float mean = all[at] / static_cast<float>(count);
-            result.row(row)[x] =
-                otherCount > 0 ? shared::denoiseChoiceError(mean, others[at] / static_cast<float>(otherCount)) : mean;
+    });
+    parallelFor(threads, height, [&](std::size_t y) {
+        const InReach rows(y, kReach, height), ownRows(y, kOwn, height);
+        for (std::size_t x = 0; x < width; ++x) {
+            float sum = 0, others = 0;
+            for (std::size_t from = rows.first; from <= rows.last; ++from) {
+                sum += rowSums.row(from)[x];
+                others += (ownRows.contains(from) ? otherSums : rowSums).row(from)[x];
+            }
+            const std::size_t count = rows.count() * InReach(x, kReach, width).count();
+            const std::size_t otherCount = count - ownRows.count() * InReach(x, kOwn, width).count();
+            const float mean = sum / static_cast<float>(count);
+            result.row(y)[x] =
+                otherCount > 0 ? shared::denoiseChoiceError(mean, others / static_cast<float>(otherCount)) : mean;
         }
     });
     return result;

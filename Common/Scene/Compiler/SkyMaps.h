@@ -18,7 +18,8 @@ bool mustBeMapped(const ImageBackground& sky);
 // has twice as many texels, each the mean over 16 places in it.
 std::uint32_t appendSkyMap(const ImageBackground& sky, std::uint32_t image, CompiledScene& out);
 
-// Appends a black image of linear colours, and gives its index. `name`: of what it is of, for errors. Throws InputError.
+// Appends a black image of linear colours, and gives its index. `name`: of what it is of, for errors. Throws
+// InputError.
 std::uint32_t appendLinearImage(std::uint32_t width, std::uint32_t height, const std::string& name, CompiledScene& out);
 // Sets one of its texels, of the scene's words.
 void setTexel(std::uint32_t* words, const glm::dvec3& color);

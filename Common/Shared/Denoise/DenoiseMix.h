@@ -17,10 +17,10 @@ RT_CONST float kDenoiseRelativeFloor = 0.01f; // of relMSE's denominator
 // details are worth.
 const uint kDenoiseMixSamples = 32u;
 
-// What is left to mix then is coarser than a pixel. Where a filter blurs an edge or a highlight, it takes away about the
-// same from all pixels around, while their noise differs: the mean over some pixels of raw - filtered has most of the
-// one and little of the other, and shows the filter's error where single pixels do not. A part of that mean is given
-// back to each pixel.
+// What is left to mix then is coarser than a pixel. Where a filter blurs an edge or a highlight, it takes away about
+// the same from all pixels around, while their noise differs: the mean over some pixels of raw - filtered has most of
+// the one and little of the other, and shows the filter's error where single pixels do not. A part of that mean is
+// given back to each pixel.
 const int kDenoiseCoarseReach = 2;     // pixels in either direction, over which the mean is taken
 const uint kDenoiseCoarseSamples = 4u; // of each half, from which on it is done
 
@@ -55,10 +55,10 @@ RT_FN DenoiseMix denoiseMix(DenoisedValue a, DenoisedValue b, float error) {
     return mix;
 }
 
-// Of one channel of a pixel, by means over the pixels around: of what the filter took away from each half, and of half of
-// the difference of the raw halves. The part v of the mean r of both residuals that makes the error least is 1 less the
-// share of r's square that is noise, and that is the noise of r times the noise of the raw mean, for which half of both
-// halves' difference stands (James and Stein 1961, "Estimation with Quadratic Loss", with the noise measured).
+// Of one channel of a pixel, by means over the pixels around: of what the filter took away from each half, and of half
+// of the difference of the raw halves. The part v of the mean r of both residuals that makes the error least is 1 less
+// the share of r's square that is noise: the noise of r times the noise of the raw mean, for which half of both halves'
+// difference stands (James and Stein 1961, "Estimation with Quadratic Loss", with the noise measured).
 RT_FN DenoiseMix denoiseCoarseMix(float residualA, float residualB, float halfDifference, float filtered) {
     float residual = 0.5f * (residualA + residualB);
     float noise = halfDifference * (0.5f * (residualA - residualB));
