@@ -26,7 +26,7 @@ ComputePipeline::ComputePipeline(vulkan::VulkanContext& context, const vulkan::P
       name_(describe(constants.features, queries, constants.traversal.isLinear != 0)),
       groupSize_(constants.traversal.groupSize) {
     const VkSpecializationInfo specialization = specializationInfo(constants);
-    const auto module = vulkan::makeShaderModule(context.device(), shaderCode(shader));
+    const auto module = vulkan::makeShaderModule(context.device(), shaderCode(shader), specialization);
     pipeline_ =
         vulkan::makeComputePipeline(context.device(), cache.get(), bindings.layout(), module.get(), &specialization,
                                     "Creating the compute pipeline", vulkan::figureFlags(context));

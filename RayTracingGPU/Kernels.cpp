@@ -13,31 +13,31 @@ namespace {
 constexpr std::uint32_t kInvocations = 1u << 17;     // fill the largest GPUs
 constexpr std::uint32_t kSoftInvocations = 1u << 14; // fill the largest processors
 
-// What only the full shaders have, see RT_HEAVY_FEATURES in Common/Shared/Base/Shim.h.
+// Whose code needs many registers.
 constexpr shared::Features kHeavyFeatures = shared::kMethodProjected | shared::kFeaturePrincipled |
                                             shared::kFeatureOpacity | shared::kFeatureCoatNormal |
                                             shared::kMethodConnections | shared::kRoundLightFeatures;
 
 // The first of a purpose's kernels; the others follow it by engine, see RT_GPU_KERNELS.
-Shader firstOf(KernelPurpose purpose, bool heavy) {
+Shader firstOf(KernelPurpose purpose) {
     switch (purpose) {
         case KernelPurpose::Reuse:
             return Shader::ReusePipeline;
         case KernelPurpose::FirstHits:
-            return Shader::FirstHitsPipeline; // heavy as well
+            return Shader::FirstHitsPipeline;
         case KernelPurpose::Rays:
-            return heavy ? Shader::HeavyRaysPipeline : Shader::RaysPipeline;
+            return Shader::RaysPipeline;
         case KernelPurpose::Time:
-            return heavy ? Shader::HeavyTimePipeline : Shader::TimePipeline;
+            return Shader::TimePipeline;
         case KernelPurpose::Paths:
             break;
     }
-    return heavy ? Shader::HeavyPathsPipeline : Shader::PathsPipeline;
+    return Shader::PathsPipeline;
 }
 
-Shader shaderFor(KernelPurpose purpose, bool heavy, app::GpuEngineKind engine) {
+Shader shaderFor(KernelPurpose purpose, app::GpuEngineKind engine) {
     const int place = engine == app::GpuEngineKind::Pipeline ? 0 : engine == app::GpuEngineKind::Compute ? 1 : 2;
-    return static_cast<Shader>(static_cast<int>(firstOf(purpose, heavy)) + place);
+    return static_cast<Shader>(static_cast<int>(firstOf(purpose)) + place);
 }
 
 } // namespace
@@ -45,7 +45,7 @@ Shader shaderFor(KernelPurpose purpose, bool heavy, app::GpuEngineKind engine) {
 std::unique_ptr<Kernel> makeKernel(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache,
                                    const RenderBindings& bindings, app::GpuEngineKind engine, KernelPurpose purpose,
                                    const SpecializationConstants& constants) {
-    const Shader shader = shaderFor(purpose, shared::has(constants.features, kHeavyFeatures), engine);
+    const Shader shader = shaderFor(purpose, engine);
     if (engine == app::GpuEngineKind::Pipeline) {
         return std::make_unique<RtPipeline>(context, cache, bindings, constants, shader);
     }

@@ -145,7 +145,7 @@ void PreviewPass::createPipelines(const vulkan::PipelineCache& cache) {
     }
     const Specialization constants{features_, 0};
     const VkSpecializationInfo specialization = constants.info();
-    const auto module = vulkan::makeShaderModule(device, shaderCode(Shader::PreviewFinish));
+    const auto module = vulkan::makeShaderModule(device, shaderCode(Shader::PreviewFinish), specialization);
     finishing_ = vulkan::makeComputePipeline(device, cache.get(), layout_.get(), module.get(), &specialization, kWhat);
 }
 
@@ -153,8 +153,8 @@ vulkan::Handle<VkPipeline> PreviewPass::createDrawing(const vulkan::PipelineCach
     const VkDevice device = context_.device();
     const Specialization constants{features_, shape};
     const VkSpecializationInfo specialization = constants.info();
-    const auto vertex = vulkan::makeShaderModule(device, shaderCode(Shader::PreviewVertex));
-    const auto fragment = vulkan::makeShaderModule(device, shaderCode(Shader::PreviewFragment));
+    const auto vertex = vulkan::makeShaderModule(device, shaderCode(Shader::PreviewVertex), specialization);
+    const auto fragment = vulkan::makeShaderModule(device, shaderCode(Shader::PreviewFragment), specialization);
     const std::array stages{vulkan::shaderStage(VK_SHADER_STAGE_VERTEX_BIT, vertex.get(), &specialization),
                             vulkan::shaderStage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get(), &specialization)};
     VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};

@@ -49,7 +49,7 @@ class GroupList {
         return group;
     }
     std::uint32_t addStage(VkShaderStageFlagBits stage, Shader shader) {
-        modules_.push_back(vulkan::makeShaderModule(device_, shaderCode(shader)));
+        modules_.push_back(vulkan::makeShaderModule(device_, shaderCode(shader), constants_));
         stages_.push_back(vulkan::shaderStage(stage, modules_.back().get(), &constants_));
         return static_cast<std::uint32_t>(stages_.size() - 1);
     }

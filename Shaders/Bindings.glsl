@@ -2,6 +2,7 @@
 // nothing is compiled that a render does not need.
 #ifndef RT_SHADERS_BINDINGS_GLSL
 #define RT_SHADERS_BINDINGS_GLSL
+#define RT_SPECIALIZED_FEATURES // of Features.h and Methods.h
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 

@@ -2,7 +2,6 @@
 // normal, texture and material.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define RT_HEAVY_FEATURES
 #include "Preview.glsl"
 
 layout(location = 0) in vec2 weights;

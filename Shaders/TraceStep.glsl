@@ -8,8 +8,6 @@ bool isTraceable(Ray ray, float tMax) {
     return squared > 0.5f && squared < 2.0f && dot(ray.origin, ray.origin) < 1.0e30f && tMax > 0.0f;
 }
 
-#ifdef RT_HEAVY_FEATURES
-
 // As traceRay(), but for layers that the ray goes through; `number` as for goesThrough().
 Hit traceLayers(Sampler smp, uint number, Ray ray, bool anyHit, float tMax) {
     if (!has(kFeatures, kFeatureOpacity)) return traceRay(ray, anyHit, tMax);
@@ -24,14 +22,6 @@ Hit traceLayers(Sampler smp, uint number, Ray ray, bool anyHit, float tMax) {
     return hit;
 }
 
-#else
-
-Hit traceLayers(Sampler smp, uint number, Ray ray, bool anyHit, float tMax) {
-    return traceRay(ray, anyHit, tMax);
-}
-
-#endif
-
 // What is found of the light at a vertex before the path goes on: segments of a connection first, then the shadow ray.
 bool isChecking(DirectLight direct, TechniqueStep step) {
     return direct.distance > 0.0f || step.connection.segments != 0u;
@@ -39,23 +29,19 @@ bool isChecking(DirectLight direct, TechniqueStep step) {
 
 // The next of them.
 Ray checkedRay(PathState path, DirectLight direct, TechniqueStep step, out float tMax) {
-#ifdef RT_HEAVY_FEATURES
     if (has(kFeatures, kMethodConnections) && step.connection.segments != 0u) return connectionRay(step.connection, path.ray.time, tMax);
-#endif
     tMax = direct.distance;
     return shadowRay(path, direct);
 }
 
 // What becomes of its light, and of the ray.
 void endChecked(SceneRef scene, Hit hit, inout PathState path, inout DirectLight direct, inout TechniqueStep step) {
-#ifdef RT_HEAVY_FEATURES
     if (has(kFeatures, kMethodConnections) && step.connection.segments != 0u) {
         float tMax;
         Ray ray = connectionRay(step.connection, path.ray.time, tMax);
         endSegment(kFeatures, scene, hit.t < 0.0f, ray, tMax, step.connection, path.radiance);
         return;
     }
-#endif
     if (hit.t < 0.0f) addDirectLight(kFeatures, scene, direct, path);
     direct.distance = 0.0f;
 }

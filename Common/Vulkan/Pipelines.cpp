@@ -5,6 +5,7 @@
 
 #include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/Create.h"
+#include "Common/Vulkan/ShaderPruning.h"
 
 namespace rt::vulkan {
 
@@ -13,6 +14,11 @@ Handle<VkShaderModule> makeShaderModule(VkDevice device, std::span<const std::ui
     info.codeSize = code.size_bytes();
     info.pCode = code.data();
     return create(device, vkCreateShaderModule, info, vkDestroyShaderModule, "Loading a shader");
+}
+
+Handle<VkShaderModule> makeShaderModule(VkDevice device, std::span<const std::uint32_t> code,
+                                        const VkSpecializationInfo& constants) {
+    return makeShaderModule(device, prunedShader(code, constants));
 }
 
 VkPipelineShaderStageCreateInfo shaderStage(VkShaderStageFlagBits stage, VkShaderModule module,

@@ -11,6 +11,9 @@
 namespace rt::vulkan {
 
 Handle<VkShaderModule> makeShaderModule(VkDevice device, std::span<const std::uint32_t> code);
+// Of what `constants` leave of it, to which alone it may be specialized then (ShaderPruning.h).
+Handle<VkShaderModule> makeShaderModule(VkDevice device, std::span<const std::uint32_t> code,
+                                        const VkSpecializationInfo& constants);
 
 // The stage's function is main(). `constants` may be null, and must live as long as the result.
 VkPipelineShaderStageCreateInfo shaderStage(VkShaderStageFlagBits stage, VkShaderModule module,

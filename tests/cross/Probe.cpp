@@ -15,7 +15,6 @@ std::vector<Words> answersOf(const Probe& probe) {
     };
     constexpr std::uint32_t kGroup = 64; // of the probes' shaders
     vulkan::VulkanContext& context = device();
-    const auto module = vulkan::makeShaderModule(context.device(), probe.shader);
     const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Launch)};
     const auto layout = vulkan::makePipelineLayout(context.device(), push, VK_NULL_HANDLE, "Loading the probe");
 
@@ -25,6 +24,8 @@ std::vector<Words> answersOf(const Probe& probe) {
     for (const std::uint32_t family : probe.families) {
         const VkSpecializationMapEntry entry{0, 0, sizeof family};
         const VkSpecializationInfo constants{1, &entry, sizeof family, &family};
+        const auto module = probe.isPruned ? vulkan::makeShaderModule(context.device(), probe.shader, constants)
+                                           : vulkan::makeShaderModule(context.device(), probe.shader);
         const std::string what = "Compiling family " + std::to_string(family) + " of a probe";
         const auto pipeline = vulkan::makeComputePipeline(context.device(), VK_NULL_HANDLE, layout.get(), module.get(),
                                                           &constants, what.c_str());

@@ -13,8 +13,9 @@ struct Probe {
     std::span<const std::uint32_t> shader;
     // Values of its constant 0, one pipeline each: compilers of drivers do not take all of the shared code in one.
     std::vector<std::uint32_t> families;
-    std::uint32_t parts; // in the second dimension of the groups; each family answers for those that are its own
-    std::uint32_t count; // of answers in a part
+    std::uint32_t parts;  // in the second dimension of the groups; each family answers for those that are its own
+    std::uint32_t count;  // of answers in a part
+    bool isPruned = true; // as the program's own shaders are
 };
 
 // parts * count answers of the test's device, those of a part together.

@@ -109,9 +109,16 @@ RT_CONST Features kRareFeatures = kFeatureAnisotropy | kFeatureIridescence | kFe
 
 RT_CONST Features kRoundFeatures = kFeatureDisks | kFeatureCylinders;
 
+#ifndef RT_SPECIALIZED_FEATURES
 RT_FN bool has(Features features, Features bits) {
     return (features & bits) != kFeatureNone;
 }
+#else
+// In the shaders of renders `features` are specialization constants, and so is this: what it rules out is found without
+// inlining functions (ShaderPruning.h).
+#define has(features, bits) \
+    (((kSceneFeatures & (bits).x) | (kMaterialFeatures & (bits).y) | (kMethods & (bits).z)) != 0u)
+#endif
 
 RT_SHARED_END
 

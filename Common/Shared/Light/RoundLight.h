@@ -1,14 +1,7 @@
-// Disks and cylinders as lights: their part in Lights.h and LightDensity.h. In GLSL only shaders that define
-// RT_HEAVY_FEATURES have the code, see Shim.h.
+// Disks and cylinders as lights: their part in Lights.h and LightDensity.h.
 #ifndef RT_SHARED_ROUND_LIGHT_H
 #define RT_SHARED_ROUND_LIGHT_H
-#include "Common/Shared/Base/Shim.h"
-#ifdef RT_HEAVY_FEATURES
 #include "Common/Shared/Light/CylinderLight.h"
-#else
-#include "Common/Shared/Light/LightSample.h"
-#include "Common/Shared/Shape/Rounds.h"
-#endif
 
 RT_SHARED_BEGIN
 
@@ -29,8 +22,6 @@ RT_FN vec3 roundLightError(RT_IN(Light) light) {
     return vec3(64.0f * kEpsilon * maxComponent(extent));
 }
 
-#ifdef RT_HEAVY_FEATURES
-
 // As sampleLight(), of a disk from its lit side.
 RT_FN LightSample sampleRoundLight(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
                                    vec3 normal, vec2 u) {
@@ -45,20 +36,6 @@ RT_FN float roundLightPdf(Features features, RT_IN(RenderParams) params, RT_IN(L
     }
     return diskLightPdf(params, light, position, normal, wi, distance);
 }
-
-#else
-
-RT_FN LightSample sampleRoundLight(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
-                                   vec3 normal, vec2 u) {
-    return noLightSample();
-}
-
-RT_FN float roundLightPdf(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
-                          vec3 wi, float distance, vec3 lightNormal) {
-    return 0.0f;
-}
-
-#endif
 
 RT_SHARED_END
 

@@ -1,12 +1,9 @@
 // Bright patches of the sky image, as connections by way of smooth spheres lead to them: suns, lamps and windows.
-// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_SKY_PATCHES_H
 #define RT_SHARED_SKY_PATCHES_H
 #include "Common/Shared/Light/Sky.h"
 
 RT_SHARED_BEGIN
-
-#ifdef RT_HEAVY_FEATURES
 
 RT_FN bool isInPatch(RT_IN(SkyPatch) p, uvec2 texel) {
     return texel.x >= p.begin.x && texel.x < p.end.x && texel.y >= p.begin.y && texel.y < p.end.y;
@@ -43,8 +40,6 @@ RT_FN LightSample sampleSkyPatch(SceneRef scene, RT_IN(SkyPatch) p, vec2 u) {
     s.pdf = pdfInPatch(s.pdf, patchShare(scene, image, p, row));
     return s;
 }
-
-#endif
 
 RT_SHARED_END
 

@@ -1,8 +1,6 @@
 // One layered surface with the parameters of glTF 2.0: a metal, or a dielectric coat over a diffuse base or around
 // glass; over them sheen and a clear coat. Here are the lobes that the layers come down to for one outgoing direction,
 // which PrincipledSurface.h finds.
-//
-// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_PRINCIPLED_H
 #define RT_SHARED_PRINCIPLED_H
 #include "Common/Shared/Base/Random.h"
@@ -15,8 +13,6 @@ RT_SHARED_BEGIN
 RT_FN bool isDeltaPrincipled(Features, RT_IN(Bsdf)) {
     return false; // few are, and the choice among their lobes tells
 }
-
-#ifdef RT_HEAVY_FEATURES
 
 const float kMinRoughness = 0.0316227766f; // square root of kMinAlpha
 const float kMinSheenRoughness = 0.07f;    // below it sheen would be a spark at grazing angles
@@ -305,17 +301,6 @@ RT_FN BsdfSample samplePrincipled(Features features, RT_IN(Bsdf) m, vec3 n, uint
     s.wi = normalize(toWorld(frame, s.wi));
     return s;
 }
-
-#else
-
-vec4 evalPrincipled(Features features, Bsdf m, vec3 n, vec3 wo, vec3 wi) {
-    return vec4(0.0f);
-}
-BsdfSample samplePrincipled(Features features, Bsdf m, vec3 n, uint front, vec3 wo, vec2 u, float uLobe) {
-    return absorbed();
-}
-
-#endif
 
 RT_SHARED_END
 

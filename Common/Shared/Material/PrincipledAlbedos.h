@@ -6,8 +6,6 @@
 
 RT_SHARED_BEGIN
 
-#ifdef RT_HEAVY_FEATURES
-
 // Tables of what lobes reflect in all, over the cosine of wo and the roughness, kAlbedoSteps entries each. Between them
 // albedos are never too low: what is left to the layers below, and what makes up for losses, would add up to more than
 // arrives.
@@ -100,14 +98,6 @@ RT_FN vec3 facetsAlbedo(Features features, SceneRef scene, RT_IN(PrincipledValue
     vec3 local = toStretch(values.rare.stretch, toLocal(makeFrame(n), wo));
     return stretchedAlbedo(scene, local, values.roughness, values.rare.anisotropy);
 }
-
-#else
-
-vec3 facetsAlbedo(Features features, SceneRef scene, PrincipledValues values, vec3 n, vec3 wo) {
-    return vec3(0.0f);
-}
-
-#endif
 
 RT_SHARED_END
 

@@ -1,7 +1,5 @@
 // From the values of a principled material to the lobes of Principled.h: what the layers leave to those below them, and
 // the choice among lobes.
-//
-// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_PRINCIPLED_SURFACE_H
 #define RT_SHARED_PRINCIPLED_SURFACE_H
 #include "Common/Shared/Material/Bsdf.h"
@@ -12,8 +10,6 @@ RT_SHARED_BEGIN
 RT_FN bool isPrincipled(Features features, RT_IN(Material) m) {
     return has(features, kFeaturePrincipled) && m.kind == kMaterialPrincipled;
 }
-
-#ifdef RT_HEAVY_FEATURES
 
 // What single reflection at rough facets loses is put back in proportion: Turquin, "Practical Multiple Scattering
 // Compensation for Microfacet Models", 2019. `whole` is the albedo of facets that reflect everything.
@@ -248,15 +244,6 @@ RT_FN PrincipledLobes makeLobes(Features features, SceneRef scene, RT_IN(Princip
     lobes.glassShare = lobes.glass * scale;
     return lobes;
 }
-
-#else
-
-PrincipledLobes makeLobes(Features features, SceneRef scene, PrincipledValues values, vec3 albedo, float cosine, vec3 a,
-                          vec3 coatNormal, float coatCosine, bool front) {
-    return noLobes();
-}
-
-#endif
 
 RT_SHARED_END
 

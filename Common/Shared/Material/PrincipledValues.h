@@ -1,6 +1,4 @@
 // From a principled material and a hit to what it is there: textures, opacity, normal map, numbers.
-//
-// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_PRINCIPLED_VALUES_H
 #define RT_SHARED_PRINCIPLED_VALUES_H
 #include "Common/Shared/Material/PrincipledAlbedos.h"
@@ -8,8 +6,6 @@
 #include "Common/Shared/Texture/Textures.h"
 
 RT_SHARED_BEGIN
-
-#ifdef RT_HEAVY_FEATURES
 
 // ---- textures ------------------------------------------------------------------------------------------------------
 
@@ -168,32 +164,6 @@ RT_FN void addRareValues(Features features, SceneRef scene, RT_IN(Principled) p,
     addFilm(features, scene, p, s, values);
     addDiffuseTransmission(features, scene, p, s, values);
 }
-
-#else
-
-float surfaceOpacity(Features features, SceneRef scene, Principled p, Surface s) {
-    return 1.0f;
-}
-vec3 keepReflectionAbove(vec3 n, vec3 geometric, vec3 wo) {
-    return n;
-}
-vec3 mappedNormal(Features features, SceneRef scene, uint texture, float scale, Surface s, vec3 shading, float facing) {
-    return shading;
-}
-vec3 coatNormalOf(Features features, SceneRef scene, Principled p, Surface s, vec3 shading, float facing,
-                  vec3 geometric, vec3 wo, vec3 n) {
-    return vec3(0.0f, 0.0f, 1.0f);
-}
-PrincipledValues principledValues(Features features, SceneRef scene, Principled p, Surface s) {
-    PrincipledValues values;
-    values.others = 0u;
-    values.roughness = 0.0f;
-    return values;
-}
-void addRareValues(Features features, SceneRef scene, Principled p, Surface s, vec3 n, float facing,
-                   inout PrincipledValues values) {}
-
-#endif
 
 RT_SHARED_END
 

@@ -8,8 +8,6 @@
 
 RT_SHARED_BEGIN
 
-#ifdef RT_HEAVY_FEATURES
-
 // A Gaussian in wavenumbers, as its Fourier transform has it: an oscillation over the difference of paths, in nm, that
 // dies away. `frequency` is in turns per nm.
 RT_FN float filmWave(float amplitude, float frequency, float decay, float pathDifference) {
@@ -57,8 +55,6 @@ RT_FN vec3 filmReflectance(float cosine, float ior, float thickness, vec3 base) 
                 filmChannel(base.y, ior, above, cosineInside, once.y, twice.y),
                 filmChannel(base.z, ior, above, cosineInside, once.z, twice.z));
 }
-
-#endif
 
 RT_SHARED_END
 

@@ -7,9 +7,14 @@
 
 RT_SHARED_BEGIN
 
+#ifndef RT_SPECIALIZED_FEATURES
 RT_FN bool uses(Features features, RT_IN(RenderParams) params, Features method) {
     return has(features, method) && has(Features(0u, 0u, params.methods), method);
 }
+#else
+// As has() is.
+#define uses(features, params, method) ((kMethods & kMethodsInUse & (method).z) != 0u)
+#endif
 
 RT_SHARED_END
 

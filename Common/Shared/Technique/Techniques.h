@@ -42,25 +42,21 @@ RT_FN TechniqueStep beginTechniqueStep() {
 RT_FN float techniqueEmissionShare(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit,
                                    RT_IN(Surface) surface, RT_INOUT(PathState) s) {
     float share = isCountedApart(features, s) ? 0.0f : 1.0f;
-#ifdef RT_HEAVY_FEATURES
     if (has(features, kMethodConnections)) {
         followChain(scene, params, hit, s);
         if (s.chain.state >= kChainBeyond && surface.light != kNone) {
             share *= connectionWeight(features, scene, params, s, surface.light, surface.position, surface.normal);
         }
     }
-#endif
     return share;
 }
 
 RT_FN float techniqueSkyShare(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s) {
     float share = isCountedApart(features, s) ? 0.0f : 1.0f;
-#ifdef RT_HEAVY_FEATURES
     if (has(features, kMethodConnections) && has(features, kFeatureSkyImage) && s.chain.state >= kChainBeyond) {
         uint sky = loadGlobals(scene).skyLight;
         if (sky != kNone) share *= connectionWeight(features, scene, params, s, sky, vec3(0.0f), vec3(0.0f));
     }
-#endif
     return share;
 }
 
@@ -82,9 +78,7 @@ RT_FN bool leavesLight(Features features, RT_IN(RenderParams) params, RT_IN(Vert
 RT_FN void techniquesAtLight(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
                              RT_IN(Vertex) v, RT_IN(VertexSamples) u, RT_INOUT(PathState) s,
                              RT_INOUT(TechniqueStep) step) {
-#ifdef RT_HEAVY_FEATURES
     if (has(features, kMethodConnections)) step.connection = connectLight(features, scene, params, smp, v, u, s);
-#endif
 }
 
 // `b` is what v has sampled; `s` the path that has not gone on yet.
@@ -97,9 +91,7 @@ RT_FN void techniquesAtScattering(Features features, SceneRef scene, RT_IN(Rende
         step.part.aimed = aimedShare(sphere, v.origin, s.last.total);
         if (step.part.aimed > 0.0f) b = aimScattering(sphere, v, u.bsdf, u.roulette.y, step.part.aimed, b);
     }
-#ifdef RT_HEAVY_FEATURES
     if (has(features, kMethodConnections)) continueChain(v, b, s);
-#endif
 }
 
 // What Russian roulette may do to a path that goes on, by chance: `odds` multiplies the probability that it survives.

@@ -3,7 +3,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
-#define RT_HEAVY_FEATURES
 #include "FormulaProbe.h"
 
 layout(local_size_x = 64) in;

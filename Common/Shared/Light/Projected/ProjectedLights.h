@@ -1,20 +1,14 @@
 // Light sampling by projected solid angle, the solid angle weighed by the cosine to the receiver's normal: an
 // unoccluded diffuse receiver then sees no variance. This header is all that others need of the folder.
 //
-// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h. In the others nothing is ever visible.
-//
 // Densities are on the unit disk of the receiver's tangent plane; per steradian that is times the cosine.
 #ifndef RT_SHARED_PROJECTED_LIGHTS_H
 #define RT_SHARED_PROJECTED_LIGHTS_H
 #include "Common/Shared/Light/Projected/ProjectedCap.h"
-#include "Common/Shared/Light/Projected/VisibleCap.h"
-#ifdef RT_HEAVY_FEATURES
 #include "Common/Shared/Light/Projected/ProjectedPolygon.h"
-#endif
+#include "Common/Shared/Light/Projected/VisibleCap.h"
 
 RT_SHARED_BEGIN
-
-#ifdef RT_HEAVY_FEATURES
 
 RT_FN ProjectedPolygon projectedFlat(RT_IN(Light) light, vec3 corner, vec3 normal) {
     return makeProjectedPolygon(corner, light.edgeU, light.edgeV, light.normal, light.kind == kLightTriangle, normal);
@@ -44,25 +38,6 @@ RT_CALL ProjectedDirection sampleProjectedSphere(vec3 toCenter, float radius, ve
 RT_CALL float projectedSphereDensity(vec3 toCenter, float radius, vec3 normal, vec3 wi) {
     return projectedCapDensity(makeProjectedCap(makeSphereCone(toCenter, radius), normal), wi);
 }
-
-#else
-
-vec3 sampleProjectedFlat(Light light, vec3 corner, vec3 normal, vec2 u) {
-    return vec3(0.0f);
-}
-float projectedFlatDensity(Light light, vec3 corner, vec3 normal) {
-    return 0.0f;
-}
-ProjectedDirection sampleProjectedSphere(vec3 toCenter, float radius, vec3 normal, vec2 u) {
-    ProjectedDirection none;
-    none.density = 0.0f;
-    return none;
-}
-float projectedSphereDensity(vec3 toCenter, float radius, vec3 normal, vec3 wi) {
-    return 0.0f;
-}
-
-#endif
 
 RT_SHARED_END
 

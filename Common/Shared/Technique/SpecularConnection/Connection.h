@@ -5,7 +5,6 @@
 // scattering, which finds the same paths (ConnectionChain.h). What connections do not cover counts in full where
 // scattering finds it: other orders of surfaces, lights around the sphere, and vertices that no light is thought to
 // reach.
-// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_CONNECTION_H
 #define RT_SHARED_CONNECTION_H
 #include "Common/Shared/Light/SkyPatches.h"
@@ -29,8 +28,6 @@ RT_FN SpecularConnection noConnection() {
     p.segments = 0u;
     return p;
 }
-
-#ifdef RT_HEAVY_FEATURES
 
 // ---- the light's end -----------------------------------------------------------------------------------------------
 
@@ -308,8 +305,6 @@ RT_FN void endSegment(Features features, SceneRef scene, bool isFree, RT_IN(Ray)
     p.segments &= p.segments - 1u;
     if (p.segments == 0u) radiance += p.radiance;
 }
-
-#endif
 
 RT_SHARED_END
 

@@ -1,13 +1,10 @@
 // The side of scattering: a path that finds a light by way of a smooth sphere, as a connection from where it scattered
 // might have, and the weight of what it finds there. PathState::chain carries along what that takes.
-// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_CONNECTION_CHAIN_H
 #define RT_SHARED_CONNECTION_CHAIN_H
 #include "Common/Shared/Technique/SpecularConnection/Connection.h"
 
 RT_SHARED_BEGIN
-
-#ifdef RT_HEAVY_FEATURES
 
 // Which of the spheres a path has hit.
 RT_FN uint connectedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit) {
@@ -136,8 +133,6 @@ RT_CALL float connectionWeight(Features features, SceneRef scene, RT_IN(RenderPa
     float scattering = s.chain.pdf * lightFraction(c.angles, r);
     return emissionWeight(params, scattering, density / max(spread, 1.0e-37f));
 }
-
-#endif
 
 RT_SHARED_END
 

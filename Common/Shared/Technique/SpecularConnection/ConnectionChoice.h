@@ -1,14 +1,11 @@
 // Which light a vertex connects to, and by way of which smooth sphere: in proportion to an estimate of the irradiance
 // that it brings, and with a probability that says how much that can matter.
-// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_CONNECTION_CHOICE_H
 #define RT_SHARED_CONNECTION_CHOICE_H
 #include "Common/Shared/Path/Vertex.h"
 #include "Common/Shared/Shape/SphericalShapes.h"
 
 RT_SHARED_BEGIN
-
-#ifdef RT_HEAVY_FEATURES
 
 // A sphere as a point sees it.
 struct SphereView {
@@ -123,8 +120,6 @@ RT_FN ConnectionChoice chooseConnection(SceneRef scene, RT_IN(RenderParams) para
     }
     return choice;
 }
-
-#endif
 
 RT_SHARED_END
 
