@@ -66,6 +66,7 @@ struct SurfacePlanes {
 
 // Features of one row, averaged over samples 0 .. count - 1 of their own: see Common/Shared/Path/SeenSurfaces.h.
 struct AovTask {
+    shared::Features features; // of the scene and the settings: without specialisations, a test is all that they cost
     std::uint32_t y = 0;
     std::uint32_t count = 0;
     SurfacePlanes first, wide;

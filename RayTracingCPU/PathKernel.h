@@ -59,9 +59,15 @@ inline void keepFeatures(const SurfacePlanes& planes, std::uint32_t x, const Sur
     if (planes.depth != nullptr) planes.depth[x] = meanDepth(sums);
 }
 
+// What a ray of a path hits, as traceRay(): all rays but those of scenes with layers are traced once.
+inline Hit traceFeatureRay(Features features, const CpuScene& scene, const Sampler& smp, const PathState& path) {
+    if (!has(features, kFeatureOpacity)) return traceRay(scene, path.ray);
+    return traceRay<kFeatureAll>(scene, smp, 2u * path.vertex, path.ray);
+}
+
 // Not worth a specialisation: one first hit a sample, or few more.
 void renderAovs(const KernelContext& context, const AovTask& task) {
-    constexpr Features kFeatures = kFeatureAll;
+    const Features features = task.features;
     const CpuScene& scene = *context.scene;
     const bool looksThrough = task.wide.isWanted() || task.emission != nullptr;
     for (std::uint32_t x = 0; x < context.params.width; ++x) {
@@ -70,11 +76,10 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
         for (; smp.index < task.count; ++smp.index) {
             const uvec2 pixel(x, task.y);
             PathState path =
-                startPath(cameraRay(kFeatures, context.params, context.camera, pixel, cameraSamples(kFeatures, smp)));
+                startPath(cameraRay(features, context.params, context.camera, pixel, cameraSamples(features, smp)));
             float length = 0;
-            while (seeSurface(kFeatures, scene, context.params, smp,
-                              traceRay<kFeatures>(scene, smp, 2u * path.vertex, path.ray), looksThrough, path, length,
-                              seen)) {
+            while (seeSurface(features, scene, context.params, smp, traceFeatureRay(features, scene, smp, path),
+                              looksThrough, path, length, seen)) {
             }
             seen.emission += path.radiance;
         }

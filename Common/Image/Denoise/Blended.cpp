@@ -37,7 +37,7 @@ float partnerNoise(const Halves& halves, std::size_t channel, std::size_t x, std
 shared::DenoisedValue valueOf(const Halves& halves, std::size_t candidate, std::size_t half, std::size_t channel,
                               std::size_t x, std::size_t y) {
     const float raw = halves.half[half].radiance[channel].row(y)[x];
-    if (candidate == kRawCandidate) return {raw, raw, 1, 0};
+    if (candidate == kRawCandidate) return rawValue(raw);
     return {halves.filtered[candidate][half][channel].row(y)[x], raw, halves.ownFactors[candidate][half].row(y)[x],
             halves.partnerFactors[candidate][half].row(y)[x]};
 }

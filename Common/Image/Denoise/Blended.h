@@ -13,6 +13,9 @@ inline constexpr std::size_t kRawCandidate = shared::kDenoiseBandwidths; // leav
 
 using Choice = std::array<Plane, kDenoiseCandidates>; // the weight of each candidate in a pixel
 
+inline shared::DenoisedValue rawValue(float raw) {
+    return {raw, raw, 1, 0};
+}
 // The value of a candidate in place of a pixel of a half, in radiance.
 shared::DenoisedValue valueOf(const Halves& halves, std::size_t candidate, std::size_t half, std::size_t channel,
                               std::size_t x, std::size_t y);

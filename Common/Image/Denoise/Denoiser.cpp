@@ -69,26 +69,41 @@ Plane choiceErrors(const Plane& errors, std::size_t threads) {
     return result;
 }
 
-// The error of a candidate by which it is chosen: in tones, of each pixel's own noise.
-Plane candidateErrors(const Halves& halves, std::size_t candidate, std::size_t threads) {
+// Adds a row of errors of one channel, in tones, of each pixel's own noise.
+void addToneErrors(const std::array<const float*, 2>& filtered, const std::array<const float*, 2>& tones,
+                   const std::array<const float*, 2>& ownFactors, std::size_t width, float* errors) {
+    for (std::size_t x = 0; x < width; ++x) {
+        const shared::DenoisedValue a{shared::denoiseTone(filtered[0][x]), tones[0][x], ownFactors[0][x], 0};
+        const shared::DenoisedValue b{shared::denoiseTone(filtered[1][x]), tones[1][x], ownFactors[1][x], 0};
+        errors[x] += shared::denoiseError(a, b, 0);
+    }
+}
+
+// The error of a filter by which it is chosen.
+Plane filterErrors(const Halves& halves, std::size_t filter, std::size_t threads) {
+    Plane errors(halves.variance.width(), halves.variance.height());
+    const auto& own = halves.ownFactors[filter];
+    parallelFor(threads, errors.height(), [&](std::size_t y) {
+        for (std::size_t c = 0; c < 3; ++c)
+            addToneErrors({halves.filtered[filter][0][c].row(y), halves.filtered[filter][1][c].row(y)},
+                          {halves.half[0].tones[c].row(y), halves.half[1].tones[c].row(y)},
+                          {own[0].row(y), own[1].row(y)}, errors.width(), errors.row(y));
+    });
+    return choiceErrors(errors, threads);
+}
+
+// The same of pixels as they are.
+Plane rawErrors(const Halves& halves, std::size_t threads) {
     Plane errors(halves.variance.width(), halves.variance.height());
     parallelFor(threads, errors.height(), [&](std::size_t y) {
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t x = 0; x < errors.width(); ++x) {
-                shared::DenoisedValue values[2];
-                for (std::size_t half = 0; half < 2; ++half) {
-                    values[half] = valueOf(halves, candidate, half, c, x, y);
-                    values[half].filtered = shared::denoiseTone(values[half].filtered);
-                    values[half].raw = halves.half[half].tones[c].row(y)[x];
-                }
-                errors.row(y)[x] += shared::denoiseError(values[0], values[1], 0);
+                const shared::DenoisedValue a = rawValue(halves.half[0].tones[c].row(y)[x]);
+                const shared::DenoisedValue b = rawValue(halves.half[1].tones[c].row(y)[x]);
+                errors.row(y)[x] += shared::kDenoiseRawCaution * shared::denoiseError(a, b, 0);
             }
     });
-    Plane means = choiceErrors(errors, threads);
-    if (candidate == kRawCandidate)
-        for (std::size_t y = 0; y < means.height(); ++y)
-            for (std::size_t x = 0; x < means.width(); ++x) means.row(y)[x] *= shared::kDenoiseRawCaution;
-    return means;
+    return choiceErrors(errors, threads);
 }
 
 // 1 for the candidate of the least error.
@@ -96,10 +111,9 @@ Choice choose(const Halves& halves, std::size_t threads) {
     const std::size_t width = halves.variance.width(), height = halves.variance.height();
     const std::size_t candidates = halves.mayStayRaw() ? kDenoiseCandidates : kRawCandidate;
     Choice errors, chosen;
-    for (std::size_t i = 0; i < kDenoiseCandidates; ++i) {
-        errors[i] = candidateErrors(halves, i, threads);
-        chosen[i] = Plane(width, height);
-    }
+    for (std::size_t i = 0; i < kRawCandidate; ++i) errors[i] = filterErrors(halves, i, threads);
+    if (halves.mayStayRaw()) errors[kRawCandidate] = rawErrors(halves, threads);
+    for (Plane& plane : chosen) plane = Plane(width, height);
     for (std::size_t y = 0; y < height; ++y)
         for (std::size_t x = 0; x < width; ++x) {
             std::size_t best = 0;
