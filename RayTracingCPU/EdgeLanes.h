@@ -66,7 +66,7 @@ class EdgeRays {
         const CpuScene& scene = *context_.scene;
         const RenderParams& params = context_.params;
         for (;;) {
-            const Hit hit = traceRay<kFeatures>(scene, smp, 2u * path.vertex, path.ray);
+            const Hit hit = traceRay(kFeatures, scene, smp, 2u * path.vertex, path.ray);
             TechniqueStep unused;
             Vertex v;
             if (!shadeHit(kFeatures, scene, params, smp, hit, path, unused, v)) break;

@@ -59,12 +59,6 @@ inline void keepFeatures(const SurfacePlanes& planes, std::uint32_t x, const Sur
     if (planes.depth != nullptr) planes.depth[x] = meanDepth(sums);
 }
 
-// What a ray of a path hits, as traceRay(): all rays but those of scenes with layers are traced once.
-inline Hit traceFeatureRay(Features features, const CpuScene& scene, const Sampler& smp, const PathState& path) {
-    if (!has(features, kFeatureOpacity)) return traceRay(scene, path.ray);
-    return traceRay<kFeatureAll>(scene, smp, 2u * path.vertex, path.ray);
-}
-
 // Not worth a specialisation: one first hit a sample, or few more.
 void renderAovs(const KernelContext& context, const AovTask& task) {
     const Features features = task.features;
@@ -78,8 +72,9 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
             PathState path =
                 startPath(cameraRay(features, context.params, context.camera, pixel, cameraSamples(features, smp)));
             float length = 0;
-            while (seeSurface(features, scene, context.params, smp, traceFeatureRay(features, scene, smp, path),
-                              looksThrough, path, length, seen)) {
+            while (seeSurface(features, scene, context.params, smp,
+                              traceRay(features, scene, smp, 2u * path.vertex, path.ray), looksThrough, path, length,
+                              seen)) {
             }
             seen.emission += path.radiance;
         }

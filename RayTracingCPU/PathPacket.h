@@ -335,7 +335,7 @@ class PathPacket {
         const bool startsElsewhere = has(kFeatures, kFeaturePrincipled) && path.ray.origin != path.last.position;
         if (has(kFeatures, kFeatureOpacity) || startsElsewhere || !(direct.distance > 0.0f)) {
             traceShadow(i, direct, path);
-            return traceRay<kFeatures>(scene_, get(lanes_.samplers, i), 2u * path.vertex, path.ray);
+            return traceRay(kFeatures, scene_, get(lanes_.samplers, i), 2u * path.vertex, path.ray);
         }
         ++counters_.shadow;
         bool isOccluded;

@@ -17,23 +17,18 @@ RT_FN void prefetchLights(SceneRef scene, uint child) {
     accel::prefetch(record + bytes - 1);
 }
 
-RT_FN Hit traceRay(const cpu::CpuScene& scene, const Ray& ray) {
-    return scene.tracer.closest(scene.accel, ray, kInfinity);
-}
-
 RT_FN bool isOccluded(const cpu::CpuScene& scene, const Ray& ray, float tMax) {
     return scene.tracer.occluded(scene.accel, ray, tMax);
 }
 
 // What a ray of the path of a sample hits, but for layers that it goes through; `number` as for goesThrough(). Its
 // distance is from ray.origin.
-template <Features kFeatures>
-RT_FN Hit traceRay(const cpu::CpuScene& scene, const Sampler& smp, uint number, const Ray& ray,
+RT_FN Hit traceRay(Features features, const cpu::CpuScene& scene, const Sampler& smp, uint number, const Ray& ray,
                    float tMax = kInfinity) {
     Hit hit = scene.tracer.closest(scene.accel, ray, tMax);
-    if (!has(kFeatures, kFeatureOpacity)) return hit;
+    if (!has(features, kFeatureOpacity)) return hit;
     LayeredRay r = beforeLayers(ray);
-    while (goesThrough(kFeatures, scene, smp, number, hit, r)) {
+    while (goesThrough(features, scene, smp, number, hit, r)) {
         hit = scene.tracer.closest(scene.accel, r.ray, tMax - r.from);
     }
     if (hit.t >= 0.0f) hit.t += r.from;

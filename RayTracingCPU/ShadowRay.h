@@ -14,7 +14,7 @@ template <Features kFeatures>
 bool arrives(const CpuScene& scene, const Sampler& smp, const PathState& path, const DirectLight& direct) {
     const Ray ray = shadowRay(path, direct);
     if (!has(kFeatures, kFeatureOpacity)) return !isOccluded(scene, ray, direct.distance);
-    return traceRay<kFeatures>(scene, smp, 2u * path.vertex + 1u, ray, direct.distance).t < 0.0f;
+    return traceRay(kFeatures, scene, smp, 2u * path.vertex + 1u, ray, direct.distance).t < 0.0f;
 }
 
 } // namespace

@@ -68,7 +68,7 @@ class TileSamples {
     void traceRays() {
         const uint count = min(kLanes, count_ - next_);
         for (uint i = 0u; i < count; ++i) {
-            set(hits_, i, traceRay<kFeatures>(*context_.scene, get(samplers_, i), 0u, get(rays_, i)));
+            set(hits_, i, traceRay(kFeatures, *context_.scene, get(samplers_, i), 0u, get(rays_, i)));
         }
     }
 

@@ -1,5 +1,5 @@
-// Removes from a shader what its specialization constants rule out, before a driver sees it: drivers inline all functions
-// and take most of their time for it before they fold the constants.
+// Removes from a shader what its specialization constants rule out, before a driver sees it: drivers inline all
+// functions, and take most of their time for that, before they fold the constants.
 #pragma once
 #include <cstdint>
 #include <span>

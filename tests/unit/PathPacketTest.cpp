@@ -144,12 +144,12 @@ class OneByOne {
     bool stepFurther(const Sampler& smp, PathState& path, TechniqueStep& step) {
         const CpuScene& scene = *context_.scene;
         DirectLight direct = noDirectLight();
-        const Hit hit = traceRay<kFeatureAll>(scene, smp, 2u * path.vertex, path.ray);
+        const Hit hit = traceRay(kFeatureAll, scene, smp, 2u * path.vertex, path.ray);
         const bool goesOn = stepPath(kFeatureAll, scene, context_.params, smp, hit, path, direct, step);
         if (!(direct.distance > 0.0f)) return goesOn;
         ++counters.shadow;
         const Ray shadow = shadowRay(path, direct);
-        const bool arrives = traceRay<kFeatureAll>(scene, smp, 2u * path.vertex + 1u, shadow, direct.distance).t < 0.0f;
+        const bool arrives = traceRay(kFeatureAll, scene, smp, 2u * path.vertex + 1u, shadow, direct.distance).t < 0.0f;
         if (arrives) addDirectLight(kFeatureAll, scene, direct, path);
         return goesOn;
     }

@@ -13,6 +13,7 @@ inline constexpr std::size_t kRawCandidate = shared::kDenoiseBandwidths; // leav
 
 using Choice = std::array<Plane, kDenoiseCandidates>; // the weight of each candidate in a pixel
 
+// A pixel of a half as it is.
 inline shared::DenoisedValue rawValue(float raw) {
     return {raw, raw, 1, 0};
 }

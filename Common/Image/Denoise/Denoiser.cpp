@@ -1,6 +1,7 @@
 #include "Common/Image/Denoise/Denoiser.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -92,7 +93,7 @@ Plane filterErrors(const Halves& halves, std::size_t filter, std::size_t threads
     return choiceErrors(errors, threads);
 }
 
-// The same of pixels as they are.
+// The error of pixels as they are, to be compared with filterErrors().
 Plane rawErrors(const Halves& halves, std::size_t threads) {
     Plane errors(halves.variance.width(), halves.variance.height());
     parallelFor(threads, errors.height(), [&](std::size_t y) {
