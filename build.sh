@@ -25,6 +25,7 @@ package_packages=(dpkg-dev file)
 docs_packages=(mkdocs)
 python_packages=(python3-dev pybind11-dev python3-numpy)
 
+programs=(ray-tracing-cpu ray-tracing-gpu ray-tracing-image) # what ./build.sh run needs
 preset=release # whatever the environment: what users build is what is tested
 log=build/build.log # of one call
 
@@ -53,8 +54,8 @@ step() {
 usage() {
     cat <<'END'
 ./build.sh               install what is needed and build Release into build/
-./build.sh run [gpu]     the same, then open the window of ray-tracing-cpu, or of ray-tracing-gpu; without a display
-                         render the default scene on CPU and GPU and compare them
+./build.sh run [gpu]     build the programs alone, then open the window of ray-tracing-cpu, or of ray-tracing-gpu;
+                         without a display render the default scene on CPU and GPU and compare them
 ./build.sh run --minimal the same without a window: neither built nor opened
 ./build.sh test          the same, then build and run the tests of every change (label ci)
 ./build.sh test --all    those and the nightly ones (label nightly): random actions, larger samples, the second GPU engine
@@ -89,7 +90,9 @@ cost_told=
 tell_cost() {
     [[ ! -e $1/bin && $cost_told != "$1" ]] || return 0
     cost_told=$1
-    echo "Compiling takes about $((20 / $(nproc) + 1)) min on these $(nproc) processors," \
+    local work=11 # minutes of one processor
+    [[ $verb != test ]] || work=18
+    echo "Compiling takes about $((work / $(nproc) + 1)) min on these $(nproc) processors," \
         "and half a GB in $1/; $log tells the details"
 }
 
@@ -285,20 +288,20 @@ case $verb in
         ;;
     cluster)
         install_packages "${build_packages[@]}" "${cluster_packages[@]}"
-        configure -DRT_WITH_MPI=ON
+        configure -DRT_WITH_MPI=ON -DRT_KERNELS=all # ranks may run on processors unlike this one
         build
         ;;
     run)
         if [[ ${1:-} == --minimal ]]; then
             install_packages "${headless_packages[@]}"
             configure -DRT_BUILD_GUI=OFF
-            build
+            build --target "${programs[@]}"
             compare_engines
             exit
         fi
         install_packages "${build_packages[@]}"
         if is_minimal; then configure -URT_BUILD_GUI; else configure; fi
-        build
+        build --target "${programs[@]}"
         if [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
             open_window "${1:-cpu}"
         else
@@ -309,7 +312,7 @@ case $verb in
         [[ -z ${1:-} || $1 == --all ]] || fail "test $1: must be --all or nothing"
         install_packages "${build_packages[@]}" "${test_packages[@]}" "${cluster_packages[@]}" \
             "${python_packages[@]}" ${1:+"${compiler_packages[@]}"}
-        configure -DRT_BUILD_TESTS=ON -DRT_BUILD_BENCH=ON ${VCPKG_ROOT:+-DVCPKG_MANIFEST_FEATURES=tests}
+        configure -DRT_BUILD_TESTS=ON -DRT_BUILD_BENCH=ON ${1:+-DRT_KERNELS=all} ${VCPKG_ROOT:+-DVCPKG_MANIFEST_FEATURES=tests}
         build
         provide_device || fail "$no_device_reason"
         run_tests "$@"

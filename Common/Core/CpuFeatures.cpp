@@ -120,7 +120,8 @@ const char* name(InstructionSet set) {
 }
 
 void failWithoutKernels(InstructionSet set) {
-    throw UsageError(std::string("this program has no kernels for a processor of ") + name(set));
+    throw UsageError(std::string("this program was built without kernels for a processor of ") + name(set) +
+                     "; build it here, or for all processors (cmake -DRT_KERNELS=all)");
 }
 
 const char* processorName() {
