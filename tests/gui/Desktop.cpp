@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "tests/FileBytes.h"
+#include "tests/gui/XClient.h"
 
 namespace rt::test {
 namespace {
@@ -76,9 +77,11 @@ void Desktop::SetUp() {
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "pictures");
     const std::string screen = std::to_string(kWidth) + "x" + std::to_string(kHeight) + "x24";
-    // The server chooses a free number and says which.
-    screen_ = spawn({"Xvfb", "-displayfd", "1", "-screen", "0", screen, "-nolisten", "tcp", "-noreset"}, {},
-                    folder_ / "screen.log");
+    // The server chooses a free number and says which. A pointer would be seen on the screenshots.
+    const std::string folder = folder_.string();
+    screen_ = spawn({"Xvfb", "-displayfd", "1", "-screen", "0", screen, "-fbdir", folder, "-nocursor", "-nolisten",
+                     "tcp", "-noreset"},
+                    {}, folder_ / "screen.log");
     ASSERT_TRUE(eventually([this] {
         std::istringstream lines(bytesOfFile(folder_ / "screen.log"));
         int number = -1;
@@ -88,6 +91,7 @@ void Desktop::SetUp() {
         return number >= 0;
     })) << "Xvfb does not start; Debian, Ubuntu: apt install xvfb xdotool\n"
         << bytesOfFile(folder_ / "screen.log");
+    framebuffer_ = std::make_unique<Framebuffer>(display_, folder_);
 }
 
 void Desktop::TearDown() {
@@ -198,6 +202,7 @@ void Desktop::destroyWindow() {
 
 void Desktop::endScreen() {
     if (screen_ <= 0) return;
+    framebuffer_.reset();
     kill(screen_, SIGTERM);
     waitFor(screen_);
     screen_ = -1;

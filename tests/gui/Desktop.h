@@ -4,13 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "tests/gui/XClient.h"
+#include "tests/gui/Framebuffer.h"
 
 namespace rt::test {
 
@@ -48,7 +49,7 @@ class Desktop : public testing::Test {
     bool drop(const std::vector<std::string>& files, int x = 1, int y = 1);
     std::uint64_t residentBytes() const;
     bool isBusy() const; // whether any of its threads runs, or would on a machine with less to do
-    Screenshot screenshot() const { return takeScreenshot(display_); }
+    Screenshot screenshot() const { return framebuffer_ ? framebuffer_->look() : Screenshot{}; }
     bool hasChild() const; // whether the program runs another one
 
     // Waits for what takes a while on a busy machine; the time only ends a test that fails.
@@ -62,7 +63,8 @@ class Desktop : public testing::Test {
 
   private:
     std::string display_; // ":99"
-    int screen_ = -1;     // processes
+    std::unique_ptr<Framebuffer> framebuffer_;
+    int screen_ = -1; // processes
     int program_ = -1;
     std::string window_; // xdotool's number
 };

@@ -263,6 +263,7 @@ TEST_P(SharedPanelsTest, TheToolbarDoesWhatItShows) {
 TEST_P(SharedPanelsTest, TheInspectorIsNeverClipped) {
     struct Box {
         int left = kWidth, top = kHeight, right = 0, bottom = 0; // where two screens differ
+        bool operator==(const Box&) const = default;
     };
     foldOutOnly("view");
     start();
@@ -270,8 +271,8 @@ TEST_P(SharedPanelsTest, TheInspectorIsNeverClipped) {
     act("mousemove 375 40"); // beside the picture
     Screenshot without;
     const auto pictureOf = [](const Screenshot& shot) {
-        return std::vector<std::uint32_t>(shot.pixels.begin() + 70 * shot.width,
-                                          shot.pixels.begin() + 834 * shot.width);
+        return std::vector<std::uint32_t>(shot.pixels->begin() + 70 * shot.width,
+                                          shot.pixels->begin() + 834 * shot.width);
     };
     EXPECT_TRUE(eventually([&] { // the render has ended
         without = screenshot();
@@ -285,19 +286,27 @@ TEST_P(SharedPanelsTest, TheInspectorIsNeverClipped) {
         return pictureOf(screenshot()) != pictureOf(without);
     }));
     int firstColumn = 373; // that is looked at: the picture's
+    const auto boxNow = [&] {
+        Box box;
+        const Screenshot with = screenshot();
+        for (int row = 70; row < 834; ++row)
+            for (int column = firstColumn; column < kWidth; ++column) {
+                if (with.at(column, row) == without.at(column, row)) continue;
+                box.left = std::min(box.left, column), box.right = std::max(box.right, column);
+                box.top = std::min(box.top, row), box.bottom = std::max(box.bottom, row);
+            }
+        return box;
+    };
+    std::string elsewhere = "mousemove 375 40";
     const auto boxAt = [&](int x, int y) {
+        act(elsewhere);
+        EXPECT_TRUE(eventually([&] { return boxNow().right == 0; })); // where it was before
         act("mousemove " + std::to_string(x) + " " + std::to_string(y));
         Box box;
         EXPECT_TRUE(eventually([&] {
-            box = Box();
-            const Screenshot with = screenshot();
-            for (int row = 70; row < 834; ++row)
-                for (int column = firstColumn; column < kWidth; ++column) {
-                    if (with.at(column, row) == without.at(column, row)) continue;
-                    box.left = std::min(box.left, column), box.right = std::max(box.right, column);
-                    box.top = std::min(box.top, row), box.bottom = std::max(box.bottom, row);
-                }
-            return box.right - box.left > 100;
+            box = boxNow();
+            pause(200); // it has found its size
+            return box.right - box.left > 100 && boxNow() == box;
         })) << x
             << ", " << y;
         return box;
@@ -319,9 +328,10 @@ TEST_P(SharedPanelsTest, TheInspectorIsNeverClipped) {
     EXPECT_GT(ofBothInCorner.right - ofBothInCorner.left, 0.9 * (ofBoth.right - ofBoth.left));
     // Whatever the window's width, its border is seen at both sides.
     firstColumn = 0;
+    elsewhere = "mousemove 5 40";
     for (const int width : {700, 420, 240}) {
         resize(width, 860);
-        act("mousemove 5 40");
+        act(elsewhere);
         pause(2000); // the panels have moved
         without = screenshot();
         const Box box = boxAt(width - 40, 450);

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <memory>
+#include <tuple>
 #include <utility>
 
 #include <imgui.h>
@@ -16,7 +18,7 @@ namespace rt::test {
 namespace {
 
 constexpr double kLikeness = 0.93; // correlation of what is on the screen with the text
-constexpr float kContrast = 12;    // of letters with their ground, of 255
+constexpr int kContrast = 120;     // of letters with their ground, of ten times 255
 
 // Coverage of pixels by letters, row after row.
 struct Letters {
@@ -115,15 +117,23 @@ const Letters& lettersOf(const std::string& text) {
     return found->second;
 }
 
-double brightness(std::uint32_t color) {
-    return 0.3 * (color >> 16 & 0xff) + 0.6 * (color >> 8 & 0xff) + 0.1 * (color & 0xff);
+// Of every pixel, up to ten times 255; those of the last screenshot are kept, of which other texts are asked.
+const std::vector<int>& brightnessOf(const Screenshot& shot) {
+    static std::shared_ptr<const Screenshot::Pixels> pixels;
+    static std::vector<int> values;
+    if (pixels == shot.pixels) return values;
+    pixels = shot.pixels;
+    values.resize(pixels->size());
+    std::transform(pixels->begin(), pixels->end(), values.begin(), [](std::uint32_t color) {
+        return static_cast<int>(3 * (color >> 16 & 0xff) + 6 * (color >> 8 & 0xff) + (color & 0xff));
+    });
+    return values;
 }
 
 class Search {
   public:
-    Search(const Screenshot& shot, const Letters& letters) : letters_(letters), width_(shot.width) {
-        values_.reserve(shot.pixels.size());
-        for (const std::uint32_t color : shot.pixels) values_.push_back(static_cast<float>(brightness(color)));
+    Search(const Screenshot& shot, const Letters& letters)
+        : letters_(letters), width_(shot.width), values_(brightnessOf(shot)) {
         const float most = *std::max_element(letters.coverage.begin(), letters.coverage.end());
         for (int y = 0; y < letters.height; ++y)
             for (int x = 0; x < letters.width; ++x) {
@@ -135,7 +145,7 @@ class Search {
     }
 
     bool isAt(int x, int y) const {
-        const float* const corner = &values_[static_cast<std::size_t>(y * width_ + x)];
+        const int* const corner = &values_[static_cast<std::size_t>(y * width_ + x)];
         return hasContrast(corner) && std::abs(correlation(corner)) > kLikeness;
     }
 
@@ -148,9 +158,9 @@ class Search {
         pixels.resize(kFew);
     }
     // Whether some of the letters' pixels are all brighter than some of their ground, or all darker: quickly told.
-    bool hasContrast(const float* corner) const {
+    bool hasContrast(const int* corner) const {
         if (ink_.empty() || paper_.empty() || std::abs(corner[ink_[0]] - corner[paper_[0]]) <= kContrast) return false;
-        float brightest = 0, darkest = 255; // of the ground
+        int brightest = 0, darkest = 2550; // of the ground
         for (const int pixel : paper_) {
             brightest = std::max(brightest, corner[pixel]);
             darkest = std::min(darkest, corner[pixel]);
@@ -159,7 +169,7 @@ class Search {
         const auto isDarker = [&](int pixel) { return corner[pixel] < darkest - kContrast; };
         return std::all_of(ink_.begin(), ink_.end(), isBrighter) || std::all_of(ink_.begin(), ink_.end(), isDarker);
     }
-    double correlation(const float* corner) const {
+    double correlation(const int* corner) const {
         const int count = letters_.width * letters_.height;
         double a = 0, b = 0, aa = 0, bb = 0, ab = 0;
         for (int y = 0; y < letters_.height; ++y)
@@ -173,16 +183,14 @@ class Search {
 
     const Letters& letters_;
     int width_;
-    std::vector<float> values_;
+    const std::vector<int>& values_;
     std::vector<int> ink_, paper_; // some pixels of the letters and of their ground, counted from the corner
 };
 
-} // namespace
-
-std::vector<Place> findText(const Screenshot& shot, const std::string& text, const Place& within) {
+std::vector<Place> searchFor(const std::string& text, const Screenshot& shot, const Place& within) {
     const Letters& letters = lettersOf(text);
     std::vector<Place> places;
-    if (letters.coverage.empty() || shot.pixels.empty()) return places;
+    if (letters.coverage.empty() || shot.pixels->empty()) return places;
     const Search search(shot, letters);
     const int right = std::min(within.right, shot.width), bottom = std::min(within.bottom, shot.height);
     const auto isKnown = [&places](int x, int y) { // one text is alike itself a pixel further
@@ -194,6 +202,20 @@ std::vector<Place> findText(const Screenshot& shot, const std::string& text, con
         for (int x = std::max(within.left, 0); x + letters.width <= right; ++x)
             if (search.isAt(x, y) && !isKnown(x, y)) places.push_back({x, y, x + letters.width, y + letters.height});
     return places;
+}
+
+} // namespace
+
+std::vector<Place> findText(const Screenshot& shot, const std::string& text, const Place& within) {
+    using Question = std::tuple<std::string, int, int, int, int>;
+    static std::shared_ptr<const Screenshot::Pixels> pixels;
+    static std::map<Question, std::vector<Place>> answers; // about these pixels: windows mostly stay as they are
+    if (pixels != shot.pixels) answers.clear();
+    pixels = shot.pixels;
+    const Question question{text, within.left, within.top, within.right, within.bottom};
+    auto found = answers.find(question);
+    if (found == answers.end()) found = answers.emplace(question, searchFor(text, shot, within)).first;
+    return found->second;
 }
 
 } // namespace rt::test

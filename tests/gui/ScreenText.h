@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/gui/XClient.h"
+#include "tests/gui/Framebuffer.h"
 
 namespace rt::test {
 

@@ -160,22 +160,6 @@ std::string windowTitle(const std::string& display, unsigned long window) {
     return title;
 }
 
-Screenshot takeScreenshot(const std::string& display) {
-    const Connection connection(XOpenDisplay(display.c_str()));
-    if (!connection) return {};
-    const int screen = DefaultScreen(connection.get());
-    Screenshot shot{DisplayWidth(connection.get(), screen), DisplayHeight(connection.get(), screen), {}};
-    XImage* image =
-        XGetImage(connection.get(), DefaultRootWindow(connection.get()), 0, 0, static_cast<unsigned>(shot.width),
-                  static_cast<unsigned>(shot.height), AllPlanes, ZPixmap);
-    if (image == nullptr) return {};
-    for (int y = 0; y < shot.height; ++y)
-        for (int x = 0; x < shot.width; ++x)
-            shot.pixels.push_back(static_cast<std::uint32_t>(XGetPixel(image, x, y)) & 0xffffffu);
-    XDestroyImage(image);
-    return shot;
-}
-
 void setDotsPerInch(const std::string& display, int dots) {
     const Connection connection(XOpenDisplay(display.c_str()));
     if (!connection) return;

@@ -18,17 +18,6 @@ void destroyWindow(const std::string& display, unsigned long window);
 // Empty where there is no such window. Asked again and again, a process each time would cost more than what is awaited.
 std::string windowTitle(const std::string& display, unsigned long window);
 
-// All that is on the screen.
-struct Screenshot {
-    int width = 0, height = 0;
-    std::vector<std::uint32_t> pixels; // 0xrrggbb, row after row
-
-    std::uint32_t at(int x, int y) const {
-        return pixels.at(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
-    }
-};
-Screenshot takeScreenshot(const std::string& display); // empty: there is no such display
-
 // Of the screen, as its user has set it: programs that start later see it.
 void setDotsPerInch(const std::string& display, int dots);
 
