@@ -16,6 +16,7 @@
 #include "Common/Gui/FrameTimer.h"
 #include "Common/Gui/ImGuiLayer.h"
 #include "Common/Gui/ObjectTools.h"
+#include "Common/Gui/PanelImages.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Panels/SavePaths.h"
 #include "Common/Gui/PictureArea.h"
@@ -44,7 +45,6 @@ constexpr double kReadingSeconds = 0.1;                         // of frames tha
 constexpr int kAnsweringFrames = 4;  // after input that may bring the keyboard elsewhere, before more is read
 constexpr int kSettlingFrames = 6;   // after the last input, likewise: windows and tables find their sizes in them
 constexpr double kLongestStep = 0.1; // seconds of flight in one frame
-constexpr std::uint32_t kScenePictureSide = 64, kMaterialPictureSide = 96; // pixels, as cmake/Thumbnails.cmake has it
 constexpr double kPresentingSeconds = 0.002; // between two looks whether a frame under way has been presented
 
 class App {
@@ -63,8 +63,8 @@ class App {
                camera_,
                history_,
                window_,
-               thumbnails_,
-               materialPictures_,
+               images_.scenes,
+               images_.materials,
                options.program == app::kGpuProgram,
                program.devices,
                other_,
@@ -72,7 +72,7 @@ class App {
                editor_,
                probe_,
                paths_,
-               probeImage_} {
+               images_.probe} {
         gui_.recovery.autosave = autosave_.get();
         gui_.showFirstSteps = !std::exchange(settings_.sawFirstSteps, true);
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
@@ -88,6 +88,7 @@ class App {
     void turn();
     void readInput();
     void save();
+    bool mustPresent(const WindowFrame& frame);
     void drawFrame(bool isShown);
     void drawInterface();
     void drawOtherViewports(float scale);
@@ -102,9 +103,7 @@ class App {
     GraphicsDevice device_;
     Presenter presenter_;
     ImGuiLayer imgui_;
-    Thumbnails thumbnails_{device_, presenter_.renderPass(), "thumbnails", kScenePictureSide};
-    Thumbnails materialPictures_{device_, presenter_.renderPass(), "materials/thumbnails", kMaterialPictureSide};
-    PanelImage probeImage_{device_, presenter_.renderPass()};
+    PanelImages images_{device_, presenter_.renderPass()};
     app::RunHistory history_;
     app::CameraController camera_;
     std::atomic<bool> isNews_{false}; // there is something new of the session
@@ -124,6 +123,7 @@ class App {
     std::vector<InputEvent> input_;            // of the frame
     std::optional<app::Stopwatch> sinceInput_; // none yet
     int framesSinceInput_ = 0;
+    bool isExposed_ = false; // the window system may have forgotten what the window shows
     app::Stopwatch sinceFrame_;
     struct Sizes { // of what is shown and may have become larger
         std::uint64_t historySerial = 0;
@@ -185,7 +185,7 @@ bool App::isFrameDue() {
         sinceInput_.emplace();
         framesSinceInput_ = 0;
     }
-    if (window_.takeChange()) isNews_ = true;
+    if (window_.takeChange()) isNews_ = isExposed_ = true;
     if (window_.hasEvents()) return true; // also those that the frame before has not come to
     const double minimum = !device_.isSoftware() ? 0 : isAwake() ? kSoftFrameSeconds : kSoftNewsSeconds;
     return isInput || ((isAwake() || isNews_) && sinceFrame_.seconds() >= minimum);
@@ -237,24 +237,26 @@ void App::turn() {
     const Sizes sizes{gui_.state.historySerial, gui_.messageTime, gui_.errors.unreadCount()};
     if (std::exchange(sizes_, sizes) != sizes || gui_.browser.isSettling()) isNews_ = true;
     const auto drawInterface = [this](VkCommandBuffer commands) {
-        thumbnails_.setCommands(commands);
-        materialPictures_.setCommands(commands);
-        probeImage_.setCommands(commands);
+        images_.setCommands(commands);
         imgui_.draw(commands);
     };
     if (gui_.partToSave) savePart(gui_, device_, presenter_.format(), drawInterface);
-    const auto upload = [this](VkCommandBuffer commands, std::uint32_t frame) {
-        thumbnails_.upload(commands, frame);
-        materialPictures_.upload(commands, frame);
-        probeImage_.upload(commands, frame);
-    };
+    const auto upload = [this](VkCommandBuffer commands, std::uint32_t frame) { images_.upload(commands, frame); };
     std::vector<PicturePart> pictures{{viewports_.slot(), picture_.constants()}};
     pictures.insert(pictures.end(), otherPictures_.begin(), otherPictures_.end());
-    presenting_.present({{width, height}, std::move(pictures), upload, drawInterface});
+    if (WindowFrame frame{{width, height}, std::move(pictures), upload, drawInterface}; mustPresent(frame))
+        presenting_.present(std::move(frame));
     meter_.add(busy.seconds());
     gui_.figures = meter_.figures();
     session_.tell(gui_.figures.window);
     kept_.keepChanges(window_);
+}
+
+// A software driver draws at rendering's cost. A display paces the frames of others.
+bool App::mustPresent(const WindowFrame& frame) {
+    if (!device_.isSoftware()) return true;
+    const bool isExposed = std::exchange(isExposed_, false), areImagesNew = images_.takeChange();
+    return imgui_.takeChange() || isExposed || areImagesNew || !presenter_.isShowing(frame);
 }
 
 void App::save() {
@@ -280,9 +282,7 @@ void App::drawFrame(bool isShown) {
     imgui_.setStyle(
         {settings_.colorMode, settings_.uiScale * window_.monitorScale(), window_.pixelDensity(), settings_.font});
     imgui_.beginFrame(input_);
-    thumbnails_.beginFrame();
-    materialPictures_.beginFrame();
-    probeImage_.beginFrame();
+    images_.beginFrame();
     for (const InputEvent& event : input_)
         if (isKeyPress(event)) obeyKey(gui_, event);
     followTimeline(gui_);

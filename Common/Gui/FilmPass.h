@@ -29,6 +29,7 @@ struct PresentConstants {
     std::uint32_t flags = 0; // kPlainPicture and the like
     float split = -1;        // the held image is shown to the left of this; pixels of the window
     float surround[3] = {};
+    bool operator==(const PresentConstants&) const = default;
 };
 
 class FilmPass {

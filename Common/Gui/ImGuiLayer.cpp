@@ -1,6 +1,7 @@
 #include "Common/Gui/ImGuiLayer.h"
 
 #include <algorithm>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -114,6 +115,7 @@ void ImGuiLayer::applyStyle() {
         started_ = false;
     }
     style_ = wanted_;
+    drawn_.clear(); // the same places of another texture
     ImGuiStyle style;
     applyTheme(style, style_.colorMode);
 #if IMGUI_VERSION_NUM >= 19280
@@ -222,6 +224,55 @@ void ImGuiLayer::dropFrame() {
 
 void ImGuiLayer::endFrame() {
     ImGui::Render();
+}
+
+namespace {
+
+template <typename T>
+void appendBytes(std::string& bytes, const T& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+template <typename T>
+void appendBytes(std::string& bytes, const ImVector<T>& values) {
+    bytes.append(reinterpret_cast<const char*>(values.Data), static_cast<std::size_t>(values.size_in_bytes()));
+}
+
+// Empty where that is not all: a texture becomes another.
+std::string bytesOfDrawing(const ImDrawData& data) {
+    std::string bytes;
+    appendBytes(bytes, data.DisplayPos);
+    appendBytes(bytes, data.DisplaySize);
+    appendBytes(bytes, data.FramebufferScale);
+#if IMGUI_VERSION_NUM >= 19200
+    if (data.Textures != nullptr)
+        for (const ImTextureData* texture : *data.Textures)
+            if (texture->Status != ImTextureStatus_OK) return {};
+#endif
+    for (int i = 0; i < data.CmdListsCount; ++i) {
+        const ImDrawList& list = *data.CmdLists[i];
+        appendBytes(bytes, list.VtxBuffer);
+        appendBytes(bytes, list.IdxBuffer);
+        for (const ImDrawCmd& command : list.CmdBuffer) {
+            appendBytes(bytes, command.UserCallback);
+            appendBytes(bytes, command.ClipRect);
+            appendBytes(bytes, command.GetTexID());
+            appendBytes(bytes, command.VtxOffset);
+            appendBytes(bytes, command.IdxOffset);
+            appendBytes(bytes, command.ElemCount);
+        }
+    }
+    return bytes;
+}
+
+} // namespace
+
+bool ImGuiLayer::takeChange() {
+    const ImDrawData* const data = ImGui::GetDrawData();
+    std::string now = data != nullptr ? bytesOfDrawing(*data) : std::string();
+    const bool isSame = !now.empty() && now == drawn_;
+    drawn_ = std::move(now);
+    return !isSame;
 }
 
 void ImGuiLayer::draw(VkCommandBuffer commands) {

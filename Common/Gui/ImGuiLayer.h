@@ -64,6 +64,8 @@ class ImGuiLayer {
     void dropFrame(); // instead of endFrame(): it has only taken input, and is not shown
     void endFrame();
     void draw(VkCommandBuffer commands); // what endFrame left
+    // Whether that may differ from what it was when this was asked before, but for what callbacks draw.
+    bool takeChange();
 
   private:
     void startRenderer();
@@ -79,6 +81,7 @@ class ImGuiLayer {
     Style wanted_;
     bool started_ = false;
     InputFeed feed_;
+    std::string drawn_; // bytes of all that the renderer draws by
 };
 
 } // namespace rt::gui

@@ -9,6 +9,17 @@ PanelImage::~PanelImage() {
     vkDeviceWaitIdle(device_.device());
 }
 
+bool PanelImage::Tile::operator==(const Tile& other) const {
+    return owner == other.owner && corner.x == other.corner.x && corner.y == other.corner.y && size.x == other.size.x &&
+           size.y == other.size.y && pixels == other.pixels && firstRow == other.firstRow;
+}
+
+bool PanelImage::takeChange() {
+    const bool isSame = !newImage_ && tiles_ == drawn_;
+    drawn_ = tiles_;
+    return !isSame;
+}
+
 void PanelImage::upload(VkCommandBuffer commands, std::uint32_t frame) {
     if (!newImage_) return;
     pass_.upload(commands, frame, FilmPass::Slot::Picture, *newImage_);

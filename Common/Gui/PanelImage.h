@@ -28,6 +28,8 @@ class PanelImage {
     // Draws a part of the image in the present window of ImGui, at a place in its units: its whole width, which has
     // `pixels`, from the row `firstRow` on.
     void draw(const ImVec2& corner, const ImVec2& size, std::uint32_t pixels, std::uint32_t firstRow = 0);
+    // Whether the frame draws otherwise than the one did of which this was asked before.
+    bool takeChange();
     // With the commands of frame `frame`, outside of a render pass: the image, if it is a new one.
     void upload(VkCommandBuffer commands, std::uint32_t frame);
     // The commands that ImGui's list is about to be turned into.
@@ -38,6 +40,7 @@ class PanelImage {
         const PanelImage* owner;
         ImVec2 corner, size;
         std::uint32_t pixels, firstRow;
+        bool operator==(const Tile& other) const;
     };
     void record(const Tile& tile, const ImVec4& clip) const;
 
@@ -45,6 +48,7 @@ class PanelImage {
     FilmPass pass_;
     std::optional<image::Image> newImage_; // to be uploaded
     std::deque<Tile> tiles_;               // of this frame; ImGui's list points to them
+    std::deque<Tile> drawn_;               // of the frame before
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
 };
 

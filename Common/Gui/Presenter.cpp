@@ -22,6 +22,12 @@ Handle<VkSemaphore> createSemaphore(VkDevice device) {
 
 } // namespace
 
+bool PicturePart::operator==(const PicturePart& other) const {
+    return slot == other.slot && constants == other.constants && part.offset.x == other.part.offset.x &&
+           part.offset.y == other.part.offset.y && part.extent.width == other.part.extent.width &&
+           part.extent.height == other.part.extent.height;
+}
+
 Presenter::Presenter(GraphicsDevice& device, const Window& window) : device_(device), window_(window) {
     chooseFormat();
     renderPass_ =
@@ -77,6 +83,7 @@ void Presenter::dropSwapchain() {
     vkDeviceWaitIdle(device_.device());
     images_.clear();
     swapchain_ = {};
+    presentedSize_ = {};
     // An image may have been acquired without being drawn to: its semaphore cannot be used again.
     for (FrameSlot& slot : slots_) slot.acquired = createSemaphore(device_.device());
 }
@@ -174,13 +181,21 @@ void Presenter::setHeld(std::size_t slot, std::shared_ptr<const image::Image> he
 void Presenter::drop(std::size_t slot) {
     if (shown_[slot].film) check(vkDeviceWaitIdle(device_.device()), "Drawing on " + device_.name());
     shown_[slot] = {};
+    presentedSize_ = {};
 }
 FilmPass& Presenter::filmOf(Shown& shown) {
     if (!shown.film) shown.film = std::make_unique<FilmPass>(device_, renderPass_.get());
     return *shown.film;
 }
 
+bool Presenter::isShowing(const WindowFrame& frame) const {
+    const auto isNew = [](const Shown& shown) { return shown.newPicture || shown.newHeld; };
+    return frame.size == presentedSize_ && frame.pictures == presentedPictures_ &&
+           std::none_of(shown_.begin(), shown_.end(), isNew);
+}
+
 void Presenter::present(const WindowFrame& frame) {
+    presentedSize_ = {};
     if (!provideSwapchain(frame.size)) return;
     const VkDevice device = device_.device();
     FrameSlot& slot = slots_[slot_];
@@ -227,6 +242,8 @@ void Presenter::present(const WindowFrame& frame) {
         dropSwapchain();
     } else {
         check(presented, "Drawing to the window");
+        presentedSize_ = frame.size;
+        presentedPictures_ = frame.pictures;
     }
 }
 

@@ -22,6 +22,7 @@ struct PicturePart {
     std::size_t slot = 0; // as in Presenter::setPicture()
     PresentConstants constants;
     VkRect2D part{}; // in pixels, within the window; of the first one all of the window
+    bool operator==(const PicturePart& other) const;
 };
 
 struct WindowFrame {
@@ -54,6 +55,8 @@ class Presenter {
     // Shows a frame, on any thread; nothing where there is nothing to draw on, as while the window changes its size.
     // Throws RenderError or DeviceLostError.
     void present(const WindowFrame& frame);
+    // Whether the window shows the frame's pictures, while no frame is under way.
+    bool isShowing(const WindowFrame& frame) const;
 
   private:
     struct FrameSlot {
@@ -95,6 +98,8 @@ class Presenter {
     VkExtent2D extent_{};
     std::vector<SwapImage> images_;
     bool surfaceLost_ = false;
+    std::array<int, 2> presentedSize_{}; // of the window that shows these pictures
+    std::vector<PicturePart> presentedPictures_;
 };
 
 } // namespace rt::gui

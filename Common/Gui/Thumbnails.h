@@ -23,6 +23,7 @@ class Thumbnails {
     // Draws in the present window of ImGui, at a place in its units. False where there is no picture of that name.
     bool draw(const std::string& name, ImVec2 corner, float side);
     // As those of PanelImage.
+    bool takeChange() { return image_.takeChange(); }
     void upload(VkCommandBuffer commands, std::uint32_t frame) { image_.upload(commands, frame); }
     void setCommands(VkCommandBuffer commands) { image_.setCommands(commands); }
 

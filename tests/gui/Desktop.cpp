@@ -196,6 +196,14 @@ void Desktop::setDotsPerInch(int dots) {
     test::setDotsPerInch(display_, dots);
 }
 
+void Desktop::paintOver(unsigned side, std::uint32_t color) {
+    test::paintOver(display_, std::stoul(window_), side, color);
+}
+
+void Desktop::expose() {
+    test::exposeWindow(display_, std::stoul(window_));
+}
+
 void Desktop::destroyWindow() {
     test::destroyWindow(display_, std::stoul(window_));
 }

@@ -41,10 +41,12 @@ class Desktop : public testing::Test {
     std::string title();
     void resize(int width, int height);
     void minimise(bool minimised);
-    void freeze(bool frozen);      // as on a machine that is too busy for the program
-    void setDotsPerInch(int dots); // of the screen, before start()
-    void destroyWindow();          // as no program should do to another
-    void endScreen();              // as at the end of a user's session
+    void freeze(bool frozen);                           // as on a machine that is too busy for the program
+    void setDotsPerInch(int dots);                      // of the screen, before start()
+    void paintOver(unsigned side, std::uint32_t color); // the window's corner, until it draws
+    void expose();                                      // asks it to draw what it shows
+    void destroyWindow();                               // as no program should do to another
+    void endScreen();                                   // as at the end of a user's session
     // Drops files on the window, at a place in it, as another program would; whether they were taken.
     bool drop(const std::vector<std::string>& files, int x = 1, int y = 1);
     std::uint64_t residentBytes() const;

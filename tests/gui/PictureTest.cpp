@@ -50,6 +50,31 @@ class PictureTest : public WindowTest {
 INSTANTIATE_TEST_SUITE_P(, PictureTest, kFirstProgram, nameOfProgram);
 INSTANTIATE_TEST_SUITE_P(Nightly, PictureTest, kSecondProgram, nameOfProgram);
 
+// By a software driver, which these tests have.
+TEST_P(PictureTest, FramesThatChangeNothingAreNotDrawnUnlessTheWindowIsExposed) {
+    constexpr std::uint32_t kPaint = 0xff00ff;
+    closeFirstSteps();
+    start();
+    ASSERT_FALSE(HasFatalFailure());
+    pointAtNothing();
+    const auto isPainted = [this] { return screenshot().at(20, 20) == kPaint; };
+    EXPECT_TRUE(eventually([&] { // when the render has ended
+        paintOver(50, kPaint);
+        pause(4000); // a window at rest looks for something new every 1.2 s
+        return isPainted();
+    }));
+    expose();
+    EXPECT_TRUE(eventually([&] { return !isPainted(); }));
+    EXPECT_TRUE(eventually([&] {
+        paintOver(50, kPaint);
+        pause(1000);
+        return isPainted();
+    }));
+    key("F3"); // something else is shown
+    EXPECT_TRUE(eventually([&] { return !isPainted(); }));
+    expectCleanEnd();
+}
+
 // Over a corner of it: what is compared by switching views stays in place.
 TEST_P(PictureTest, TheLegendLeavesThePictureAsLargeAsItIs) {
     closeFirstSteps();

@@ -132,6 +132,23 @@ void setMinimised(const std::string& display, unsigned long window, bool minimis
     XSync(connection.get(), False);
 }
 
+void paintOver(const std::string& display, unsigned long window, unsigned side, std::uint32_t color) {
+    const Connection connection(XOpenDisplay(display.c_str()));
+    if (!connection) return;
+    const GC context = XCreateGC(connection.get(), window, 0, nullptr);
+    XSetForeground(connection.get(), context, color);
+    XFillRectangle(connection.get(), window, context, 0, 0, side, side);
+    XFreeGC(connection.get(), context);
+    XSync(connection.get(), False);
+}
+
+void exposeWindow(const std::string& display, unsigned long window) {
+    const Connection connection(XOpenDisplay(display.c_str()));
+    if (!connection) return;
+    XClearArea(connection.get(), window, 0, 0, 0, 0, True);
+    XSync(connection.get(), False);
+}
+
 void destroyWindow(const std::string& display, unsigned long window) {
     const Connection connection(XOpenDisplay(display.c_str()));
     if (!connection) return;
