@@ -59,12 +59,14 @@ std::vector<std::uint32_t> sparseIndices(const GltfFile& file, int index) {
     std::vector<std::uint32_t> indices(static_cast<std::size_t>(sparse.count));
     withComponentType(sparse.indices.componentType, [&](auto component) {
         using T = decltype(component);
-        const std::size_t stride =
-            file.model.bufferViews[static_cast<std::size_t>(sparse.indices.bufferView)].byteStride;
-        const std::byte* from =
-            file.view(sparse.indices.bufferView).data() + static_cast<std::size_t>(sparse.indices.byteOffset);
-        for (std::size_t i = 0; i < indices.size(); ++i)
-            indices[i] = static_cast<std::uint32_t>(load<T>(from + i * (stride == 0 ? sizeof(T) : stride)));
+        if constexpr (std::is_unsigned_v<T>) { // GltfCheck refuses others
+            const std::size_t stride =
+                file.model.bufferViews[static_cast<std::size_t>(sparse.indices.bufferView)].byteStride;
+            const std::byte* from =
+                file.view(sparse.indices.bufferView).data() + static_cast<std::size_t>(sparse.indices.byteOffset);
+            for (std::size_t i = 0; i < indices.size(); ++i)
+                indices[i] = load<T>(from + i * (stride == 0 ? sizeof(T) : stride));
+        }
     });
     for (const std::uint32_t i : indices)
         if (i >= accessor.count)

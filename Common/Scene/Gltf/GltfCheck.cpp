@@ -212,9 +212,9 @@ class Checker {
             const std::uint64_t changed = whole(sparse->at("count"));
             if (changed > count) sparse->at("count").failValue("at most the accessor's count");
             const JsonNode indices = sparse->at("indices"), values = sparse->at("values");
-            if (const JsonNode kind = indices.at("componentType"); componentBytes(kind) == 4 && whole(kind) != 5125)
-                kind.failValue("5121, 5123 or 5125");
-            range(indices, whole(indices, "byteOffset", 0), changed, componentBytes(indices.at("componentType")));
+            const JsonNode kind = indices.at("componentType");
+            if (whole(kind) != 5121 && whole(kind) != 5123 && whole(kind) != 5125) kind.failValue("5121, 5123 or 5125");
+            range(indices, whole(indices, "byteOffset", 0), changed, componentBytes(kind));
             range(values, whole(values, "byteOffset", 0), changed, bytes);
         });
     }
