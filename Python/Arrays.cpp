@@ -124,7 +124,7 @@ py::array_t<T> plainArray(const py::object& argument, const char* name, const st
     if (!py::isinstance<py::array>(argument)) throw py::type_error(unexpected(name, expected, typeText(argument)));
     if (!py::isinstance<py::array_t<T>>(argument))
         throw py::type_error(unexpected(name, expected, typeText(argument)) + "; numpy.asarray converts");
-    const auto array = py::reinterpret_borrow<py::array_t<T>>(argument);
+    auto array = py::reinterpret_borrow<py::array_t<T>>(argument);
     const bool isAligned = reinterpret_cast<std::uintptr_t>(array.data()) % alignof(T) == 0;
     if (!(array.flags() & py::array::c_style) || !isAligned)
         throw py::value_error(unexpected(name, expected, "one that is not contiguous") +

@@ -2,6 +2,7 @@
 #include <exception>
 #include <pybind11/pybind11.h>
 #include <string>
+#include <utility>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
@@ -14,10 +15,10 @@ namespace {
 namespace py = pybind11;
 
 // Never freed: exceptions may still be on their way when the module goes.
-struct ExceptionTypes {
+struct ErrorTypes {
     py::object error, usage, input, render, noDevice;
 };
-ExceptionTypes* types = nullptr;
+ErrorTypes* types = nullptr;
 
 py::object makeType(py::module_& module, const char* name, const py::object& bases, const char* description) {
     const std::string full = std::string("raytracing.") + name;
@@ -48,7 +49,7 @@ const py::object& typeOf(ExitCode code) {
 
 void translate(std::exception_ptr pointer) {
     try {
-        if (pointer) std::rethrow_exception(pointer);
+        if (pointer) std::rethrow_exception(std::move(pointer));
     } catch (const Error& error) {
         const py::object value = typeOf(error.code())(error.what());
         value.attr("exit_code") = static_cast<int>(error.code());
@@ -64,7 +65,7 @@ void translate(std::exception_ptr pointer) {
 } // namespace
 
 void bindErrors(py::module_& module) {
-    types = new ExceptionTypes;
+    types = new ErrorTypes;
     const py::object runtime = py::reinterpret_borrow<py::object>(PyExc_RuntimeError);
     const py::object value = py::reinterpret_borrow<py::object>(PyExc_ValueError);
     types->error = makeType(module, "Error", py::make_tuple(runtime),

@@ -7,6 +7,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/Create.h"
+#include "RayTracingGPU/RoundUp.h"
 
 namespace rt::gpu {
 namespace {
@@ -17,10 +18,6 @@ constexpr VkDeviceSize kBatchBytes = VkDeviceSize{256} << 20;  // of structures 
 constexpr VkDeviceSize kScratchBytes = VkDeviceSize{64} << 20; // of builds that the device may work at side by side
 constexpr VkDeviceSize kStructureAlignment = 256;              // that Vulkan prescribes within a buffer
 constexpr const char* kCompacting = "Compacting acceleration structures";
-
-VkDeviceSize roundUp(VkDeviceSize value, VkDeviceSize alignment) {
-    return (value + alignment - 1) / alignment * alignment;
-}
 
 vulkan::Handle<VkQueryPool> makeSizeQueries(VkDevice device, std::size_t count) {
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};

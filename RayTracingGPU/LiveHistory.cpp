@@ -24,9 +24,9 @@ app::RenderSettings withoutSampling(app::RenderSettings settings) {
 } // namespace
 
 void LiveHistory::begin(const shared::Camera& camera, const app::RenderSettings& settings) {
-    app::RenderSettings same = withoutSampling(settings);
+    const app::RenderSettings same = withoutSampling(settings);
     if (same != settings_) forget();
-    settings_ = std::move(same);
+    settings_ = same;
     if (next_->isMade) std::swap(last_, next_); // else the film before has shown nothing
     next_->isMade = false;
     camera_ = camera;

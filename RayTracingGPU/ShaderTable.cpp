@@ -4,15 +4,9 @@
 
 #include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/StagingRing.h"
+#include "RayTracingGPU/RoundUp.h"
 
 namespace rt::gpu {
-namespace {
-
-VkDeviceSize roundUp(VkDeviceSize value, VkDeviceSize alignment) {
-    return (value + alignment - 1) / alignment * alignment;
-}
-
-} // namespace
 
 ShaderTable::ShaderTable(vulkan::VulkanContext& context, VkPipeline pipeline, const ShaderGroups& groups)
     : cmdTraceRays_(context.rayTracing().cmdTraceRays) {

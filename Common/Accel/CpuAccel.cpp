@@ -114,7 +114,7 @@ class Assembly {
 
 bool Assembly::buildTrees() {
     roots_.resize(input_.geometries.size());
-    return buildSceneTrees(input_, settings_.tree, cancel_, primitivesDone_, [this](SceneTree tree) {
+    return buildSceneTrees(input_, settings_.tree, cancel_, primitivesDone_, [this](const SceneTree& tree) {
         LeafMaker leafMaker(tree.bvh, tree.items, lanes_);
         if (input_.instances.empty() && gainsFromQuantization(tree.bvh)) {
             quantized_ = quantize(tree.bvh, leafMaker);

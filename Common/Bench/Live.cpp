@@ -58,6 +58,7 @@ class LiveRun {
         }
         compare(shown);
         std::vector<LiveFrame> frames;
+        frames.reserve(shown.size());
         for (const Shown& one : shown) frames.push_back(one.figures);
         return frames;
     }

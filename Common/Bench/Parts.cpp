@@ -90,7 +90,7 @@ Table shaderTable(std::span<const PartRow> rows) {
             const bool isNew =
                 table.rows.empty() || table.rows.back()[0] != row.part || table.rows.back()[1] != figure.shader;
             if (isNew) {
-                table.rows.push_back(std::vector<std::string>(table.header.size(), kUnknown));
+                table.rows.emplace_back(table.header.size(), kUnknown);
                 table.rows.back()[0] = row.part;
                 table.rows.back()[1] = figure.shader;
             }

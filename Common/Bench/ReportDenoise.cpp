@@ -105,7 +105,7 @@ Table timeTable(const std::vector<Pair>& pairs) {
     return table;
 }
 
-Figure ratio(const Figure& a, const Figure& b) {
+Figure positiveRatio(const Figure& a, const Figure& b) {
     return a && b && *b > 0 && *a > 0 ? Figure(*a / *b) : std::nullopt;
 }
 
@@ -118,9 +118,9 @@ Table sampleTable(const std::vector<Pair>& pairs) {
                 if (raw->spp && raw->spp == filtered->spp)
                     table.rows.push_back({pair.name, pair.filter, whole(raw->spp), threeDigits(raw->relmse),
                                           threeDigits(filtered->relmse),
-                                          threeDigits(ratio(raw->relmse, filtered->relmse)), threeDigits(raw->flip),
-                                          threeDigits(filtered->flip),
-                                          threeDigits(ratio(filtered->estimatedRelmse, filtered->relmse))});
+                                          threeDigits(positiveRatio(raw->relmse, filtered->relmse)),
+                                          threeDigits(raw->flip), threeDigits(filtered->flip),
+                                          threeDigits(positiveRatio(filtered->estimatedRelmse, filtered->relmse))});
     return table;
 }
 
@@ -147,8 +147,8 @@ Table summaryTable(const std::vector<Pair>& pairs) {
             for (const Row* filtered : pair.filtered)
                 for (const Row* raw : pair.raw) {
                     if (pair.filter != filter || filtered->spp != spp || raw->spp != spp) continue;
-                    if (const Figure gain = ratio(raw->relmse, filtered->relmse)) found.gains.push_back(*gain);
-                    if (const Figure share = ratio(filtered->estimatedRelmse, filtered->relmse))
+                    if (const Figure gain = positiveRatio(raw->relmse, filtered->relmse)) found.gains.push_back(*gain);
+                    if (const Figure share = positiveRatio(filtered->estimatedRelmse, filtered->relmse))
                         found.estimates.push_back(*share);
                     found.worseInFlip += filtered->flip.value_or(0) > raw->flip.value_or(0);
                 }

@@ -48,6 +48,7 @@ Document efficiencyBlocks(const std::vector<const Row*>& rows) {
         if (match.best == nullptr || match.rows.size() < 2) return;
         const double best = *(match.best->*pixels.efficiency);
         std::vector<std::string> cells;
+        cells.reserve(places.size() + 2 + settings.size());
         for (const Column<Row>& place : places) cells.push_back(place.cell(*match.best));
         cells.insert(cells.end(), {pixels.name, threeDigits(1 / best)});
         for (const Config* setting : settings) {

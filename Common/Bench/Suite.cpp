@@ -36,7 +36,7 @@ std::string textOf(const JsonNode& node) {
 
 // The value of an axis, checked by setting it.
 std::string axisValue(const JsonNode& node, const Axis& axis) {
-    const std::string text = textOf(node);
+    std::string text = textOf(node);
     Config scratch;
     try {
         axis.set(scratch, text);

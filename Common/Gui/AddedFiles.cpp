@@ -68,8 +68,8 @@ std::string textureOf(const scene::SceneDesc& scene, const std::string& file, bo
     for (const auto& [name, texture] : scene.textures)
         if (texture == wanted) return name;
     const auto isTaken = [&](const std::string& name) { return scene.textures.contains(name); };
-    const std::string name = scene::freeName(printable(fs::path(file).stem().string(), 60), isTaken);
-    edits.push_back(scene::SetTexture{name, wanted});
+    std::string name = scene::freeName(printable(fs::path(file).stem().string(), 60), isTaken);
+    edits.emplace_back(scene::SetTexture{name, wanted});
     return name;
 }
 
@@ -140,7 +140,7 @@ void setTexture(Gui& gui, const TextureSlot& slot, const std::string& file) {
     std::vector<scene::SceneEdit> edits;
     scene::MaterialDesc material = found->second;
     slot.set(material, textureOf(scene, file, slot.isColor, edits));
-    edits.push_back(scene::SetMaterial{slot.material, std::move(material)});
+    edits.emplace_back(scene::SetMaterial{slot.material, std::move(material)});
     if (!editScene(gui, "Texture of " + slot.material, std::move(edits), false)) return;
     const std::size_t lacking = slot.needsTangents ? scene::meshesWithoutTangents(scene, slot.material) : 0;
     gui.say("\"" + slot.material + "\" has now " + shortName(file) +

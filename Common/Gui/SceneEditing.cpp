@@ -74,6 +74,7 @@ void followEditing(Gui& gui) {
 std::vector<scene::SceneEdit> movedAll(const scene::SceneDesc& scene, const std::vector<scene::ObjectPath>& paths,
                                        const scene::Transform& steps) {
     std::vector<scene::SceneEdit> edits;
+    edits.reserve(paths.size());
     for (const scene::ObjectPath& path : paths) edits.push_back(moved(scene, path, steps));
     return edits;
 }
@@ -231,7 +232,7 @@ void assignMaterial(Gui& gui, const std::string& name) {
     std::vector<scene::SceneEdit> edits;
     for (const scene::ObjectPath& path : gui.editor.selected().paths())
         if (materialNameOf(*findObject(gui.editor.document()->scene(), path)) != nullptr)
-            edits.push_back(scene::SetMaterialOf{path, name});
+            edits.emplace_back(scene::SetMaterialOf{path, name});
     editScene(gui, "Assign material", std::move(edits), false);
 }
 

@@ -8,7 +8,7 @@ std::string elided(const std::string& text, float width, const TextWidth& widthO
     if (widthOf(text) <= width) return text;
     for (std::size_t end = text.size(); end > 0; --end) {
         const bool isInCharacter = (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80; // of UTF-8
-        if (const std::string part = text.substr(0, end) + "..."; !isInCharacter && widthOf(part) <= width) return part;
+        if (std::string part = text.substr(0, end) + "..."; !isInCharacter && widthOf(part) <= width) return part;
     }
     return "";
 }

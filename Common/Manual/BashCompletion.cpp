@@ -39,7 +39,7 @@ FUNCTION_files() {
 
 std::string bashAction(const Flag& flag, const std::string& function, const SceneIds& scenes) {
     const ValueForm form = formOf(flag.value);
-    const std::string files = function + "_files " + joined(form.endings, " ");
+    std::string files = function + "_files " + joined(form.endings, " ");
     switch (form.kind) {
         case ValueForm::Kind::Words:
             return function + (form.isList ? "_list '" : "_words '") + joined(form.words, " ") + "'";

@@ -40,7 +40,7 @@ inline std::string singleQuoted(const std::string& text) {
 
 // Up to the first semicolon: what there is room for in one line.
 inline std::string firstPart(const std::string& text) {
-    return text.substr(0, text.find_first_of(";"));
+    return text.substr(0, text.find(';'));
 }
 
 } // namespace rt::manual

@@ -59,7 +59,8 @@ CellIntegrals::CellIntegrals(Density density, const Settings& settings, std::vec
 glm::dvec2 CellIntegrals::placeIn(const Leaf& leaf, const glm::dvec2& inLeaf) const {
     const std::size_t cell = cells_[leaf.cell];
     const glm::dvec2 inCell = leaf.corner + inLeaf * std::ldexp(1.0, -static_cast<int>(leaf.level));
-    const glm::dvec2 corner(static_cast<double>(cell % settings_.width), static_cast<double>(cell / settings_.width));
+    const std::size_t column = cell % settings_.width, row = cell / settings_.width;
+    const glm::dvec2 corner(static_cast<double>(column), static_cast<double>(row));
     return (corner + inCell) / glm::dvec2(settings_.width, settings_.height);
 }
 
@@ -69,7 +70,8 @@ CellIntegrals::Moments CellIntegrals::valuesIn(const Leaf& leaf, std::uint32_t s
     Moments moments;
     for (std::uint32_t i = 0; i < side * side; ++i) {
         const double x = random(), y = random();
-        const glm::dvec2 part(i % side, i / side); // NOLINT(bugprone-integer-division)
+        const std::uint32_t column = i % side, row = i / side;
+        const glm::dvec2 part(column, row);
         moments.add(density_(placeIn(leaf, (part + glm::dvec2(x, y)) / static_cast<double>(side))));
     }
     return moments;

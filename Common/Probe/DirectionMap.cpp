@@ -89,7 +89,8 @@ MapBuilder::MapBuilder(const Probe& probe, const Strategy& strategy, const MapSe
 // At the i-th of side * side places of a cell.
 double MapBuilder::placeValue(std::uint32_t column, std::uint32_t row, std::uint32_t i) const {
     const std::uint32_t side = settings_.side;
-    const glm::dvec2 inCell((i % side + 0.5) / side, (i / side + 0.5) / side); // NOLINT(bugprone-integer-division)
+    const std::uint32_t across = i % side, down = i / side;
+    const glm::dvec2 inCell((across + 0.5) / side, (down + 0.5) / side);
     return valueAt((glm::dvec2(column, row) + inCell) / glm::dvec2(map_.width(), map_.height), {});
 }
 

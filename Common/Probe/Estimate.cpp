@@ -32,7 +32,8 @@ void DirectEstimate::advance(std::uint32_t samples) {
         double value = 0;
         for (std::uint32_t i = 0; i < step; ++i) value += valueOf(samples_ + i);
         const double before = value - mean_;
-        mean_ += before / (samples_ / step + 1); // NOLINT(bugprone-integer-division)
+        const std::uint32_t earlier = samples_ / step;
+        mean_ += before / (earlier + 1);
         squares_ += before * (value - mean_);
     }
 }

@@ -28,7 +28,8 @@ std::vector<std::vector<shared::vec3>> edgesOf(const Probe& probe, const ProbeSe
     std::vector<std::vector<shared::vec3>> lines;
     const auto cells = static_cast<float>(settings.numbers.strata);
     for (std::uint32_t line = 0; line < 2 * (settings.numbers.strata + 1); ++line) {
-        const float across = std::min(static_cast<float>(line / 2) / cells, kBelowOne);
+        const std::uint32_t border = line / 2; // of a column and of a row
+        const float across = std::min(static_cast<float>(border) / cells, kBelowOne);
         lines.emplace_back();
         for (std::uint32_t i = 0; i <= kPointsOfEdge; ++i) {
             const float along = std::min(static_cast<float>(i) / kPointsOfEdge, kBelowOne);

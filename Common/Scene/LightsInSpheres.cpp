@@ -101,10 +101,10 @@ struct Window {
     double left = 0, top = 0, right = 0, bottom = 0;
 };
 
-class Search {
+class LampSearch {
   public:
-    Search(const CompiledScene& scene, const shared::Camera& camera, std::uint32_t width, std::uint32_t height,
-           Silhouettes& edges)
+    LampSearch(const CompiledScene& scene, const shared::Camera& camera, std::uint32_t width, std::uint32_t height,
+               Silhouettes& edges)
         : camera_(camera), plane_(camera, width, height), width_(width), height_(height), edges_(edges) {
         for (std::uint32_t i = 0; i < scene.globals.lightCount; ++i) {
             lamps_.emplace_back(scene.lights[i]);
@@ -258,7 +258,7 @@ void addLightsInSpheres(const CompiledScene& scene, const shared::Camera& camera
     };
     std::ranges::stable_sort(spheres, {}, distance);
     spheres.resize(std::min(spheres.size(), kSpheresSeen));
-    Search search(scene, camera, width, height, edges);
+    LampSearch search(scene, camera, width, height, edges);
     const double cells = kMaxCells / static_cast<double>(spheres.size());
     for (const shared::SpecularCaster& sphere : spheres) search.lookAt(sphere, cells);
 }

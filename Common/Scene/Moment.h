@@ -64,7 +64,7 @@ inline std::optional<std::size_t> chosenAnimation(const std::vector<std::string>
 // is.
 inline void noticeStandstill(const Moment& moment, std::vector<std::string>& notices) {
     static_cast<void>(chosenAnimation({}, moment));
-    if (moment.time != 0) notices.push_back("nothing moves in it: --time counts for nothing");
+    if (moment.time != 0) notices.emplace_back("nothing moves in it: --time counts for nothing");
 }
 
 } // namespace rt::scene

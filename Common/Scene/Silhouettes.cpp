@@ -25,7 +25,7 @@ bool isRound(const Light& light) {
     return light.kind == shared::kLightSphere || light.kind == shared::kLightEllipsoid;
 }
 
-bool isFlat(const Light& light) {
+bool isPolygon(const Light& light) {
     return light.kind == shared::kLightQuad || light.kind == shared::kLightTriangle;
 }
 
@@ -271,7 +271,7 @@ std::vector<std::uint32_t> Silhouettes::bits() const {
 }
 
 bool mayHaveSilhouettes(const CompiledScene& scene) {
-    const auto hasShape = [](const Light& light) { return isRound(light) || isFlat(light); };
+    const auto hasShape = [](const Light& light) { return isRound(light) || isPolygon(light); };
     return scene.globals.lightCount <= kMaxLightsWithEdges &&
            std::any_of(scene.lights.begin(), scene.lights.begin() + scene.globals.lightCount, hasShape);
 }
@@ -289,7 +289,7 @@ Silhouettes findSilhouettes(const CompiledScene& scene, const shared::Camera& ca
     for (std::uint32_t i = 0; i < scene.globals.lightCount; ++i) {
         const Light& light = scene.lights[i];
         if (isRound(light)) drawRound(light, image);
-        if (!isFlat(light)) continue;
+        if (!isPolygon(light)) continue;
         const bool isFront = glm::dot(glm::dvec3(light.normal), image.eye() - glm::dvec3(light.position)) > 0.0;
         if (!isFront && light.sides != shared::kSidesBoth) continue;
         if (light.kind == shared::kLightQuad)

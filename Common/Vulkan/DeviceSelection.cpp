@@ -228,6 +228,7 @@ std::vector<DeviceInfo> findDevices(const Instance& instance) {
     std::vector<VkPhysicalDevice> handles(count);
     check(vkEnumeratePhysicalDevices(instance.get(), &count, handles.data()), "Listing Vulkan devices");
     std::vector<DeviceInfo> devices;
+    devices.reserve(handles.size());
     for (VkPhysicalDevice handle : handles) devices.push_back(describe(handle));
     return devices;
 }

@@ -4,6 +4,14 @@
 
 namespace rt::accel {
 
+namespace {
+
+std::uint32_t blockCount(std::uint32_t items, std::uint32_t blockSize) { // the last one perhaps in part
+    return (items + blockSize - 1) / blockSize;
+}
+
+} // namespace
+
 Binning::Binning(const Bounds& centers, std::uint32_t count) : base_(centers.lower), count_(count) {
     float extent[4];
     (centers.upper - centers.lower).store(extent);
@@ -43,8 +51,7 @@ Split BinSums::best(std::uint32_t blockSize) const {
         for (std::uint32_t i = count_ - 1; i > 0; --i) {
             items += items_[a][i];
             right.add(bounds_[a][i]);
-            rightCost[i] =
-                items == 0 ? -1.0f : right.halfArea() * static_cast<float>((items + blockSize - 1) / blockSize);
+            rightCost[i] = items == 0 ? -1.0f : right.halfArea() * static_cast<float>(blockCount(items, blockSize));
         }
         items = 0;
         Bounds left = Bounds::empty();
@@ -52,7 +59,7 @@ Split BinSums::best(std::uint32_t blockSize) const {
             items += items_[a][i - 1];
             left.add(bounds_[a][i - 1]);
             if (items == 0 || rightCost[i] < 0.0f) continue;
-            const float cost = left.halfArea() * static_cast<float>((items + blockSize - 1) / blockSize) + rightCost[i];
+            const float cost = left.halfArea() * static_cast<float>(blockCount(items, blockSize)) + rightCost[i];
             if (cost < best.cost) best = {cost, a, static_cast<std::int32_t>(i), items};
         }
     }

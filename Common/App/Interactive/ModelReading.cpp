@@ -78,9 +78,9 @@ std::vector<scene::SceneEdit> editsToAdd(const scene::SceneDesc& scene, const st
     const scene::Bounds own = boundsOfPrototype(prototypes, name);
     scene::InstanceDesc instance{name, placeOfModel(own, bounds, camera), {}};
     std::vector<scene::SceneEdit> edits;
-    if (model) edits.push_back(std::move(*model));
+    if (model) edits.emplace_back(std::move(*model));
     const scene::ObjectPath path{"", {static_cast<std::uint32_t>(scene.objects.size())}};
-    edits.push_back(scene::PlaceObject{path, scene::ObjectDesc{std::move(instance)}});
+    edits.emplace_back(scene::PlaceObject{path, scene::ObjectDesc{std::move(instance)}});
     return edits;
 }
 
@@ -94,7 +94,7 @@ std::vector<scene::SceneEdit> editsToDrop(const scene::SceneDesc& scene,
             const auto* instance = object != nullptr ? std::get_if<scene::InstanceDesc>(&object->shape) : nullptr;
             uses += instance != nullptr && instance->prototype == name && instance->material.empty();
         }
-        if (uses > 0 && uses == modelUses(scene, name)) edits.push_back(scene::SetModel{name, std::nullopt, {}});
+        if (uses > 0 && uses == modelUses(scene, name)) edits.emplace_back(scene::SetModel{name, std::nullopt, {}});
     }
     return edits;
 }

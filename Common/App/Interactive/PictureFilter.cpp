@@ -41,7 +41,7 @@ PictureFilter::Pointer PictureFilter::filterDraft(const FilmRun& draft) {
     static const std::atomic<bool> isNever{false};
     begin(draft.engine());
     if (denoiser_ && isQuick_ && hasWhatLiveNeeds(draft)) make(draft, DenoiseQuality::Live, false, isNever);
-    const Pointer made = last_;
+    Pointer made = last_;
     end();
     return made;
 }

@@ -80,7 +80,8 @@ void SceneEditor::finishSaving() {
 
 // ---- for the case of a crash ---------------------------------------------------------------------------------------
 
-void SceneEditor::beginAutosave(std::string source, const scene::Moment& moment, std::optional<FileFingerprint> mark) {
+void SceneEditor::beginAutosave(const std::string& source, const scene::Moment& moment,
+                                std::optional<FileFingerprint> mark) {
     keptFrom_ = document_->position();
     keepsEdits_ = document_->stepCount() > keptFrom_; // which redo would lead to
     if (autosave_ != nullptr)

@@ -90,7 +90,7 @@ class SceneEditor {
     void takeBack(std::uint64_t gesture); // without telling anybody
     void note(scene::EditStep step);
     void keepNotes();
-    void beginAutosave(std::string source, const scene::Moment& moment, std::optional<FileFingerprint> mark);
+    void beginAutosave(const std::string& source, const scene::Moment& moment, std::optional<FileFingerprint> mark);
     void finishSaving();
 
     InteractiveSession& session_;

@@ -34,8 +34,8 @@ void SceneExport::start(const std::string& source, const scene::Moment& moment, 
 
 void SceneExport::start(scene::SceneDesc scene, const std::string& source, const std::string& assetsBelow,
                         const std::string& file) {
-    const auto kept = std::make_shared<scene::SceneDesc>(std::move(scene));
-    run([kept, file] { return writeScene(file, std::move(*kept)); }, source, assetsBelow, file);
+    const auto kept = std::make_shared<const scene::SceneDesc>(std::move(scene));
+    run([kept, file] { return writeScene(file, *kept); }, source, assetsBelow, file);
 }
 
 void SceneExport::startEdited(scene::SceneDesc scene, const std::string& source, const scene::Moment& moment,

@@ -8,6 +8,7 @@ namespace rt::app {
 
 bool SceneFileWatch::isDue(const std::vector<WatchedFile>& files) {
     std::vector<std::optional<FileFingerprint>> marks;
+    marks.reserve(files.size());
     for (const WatchedFile& watched : files) marks.push_back(markOf(watched.file));
     if (std::exchange(seen_, marks) != marks) return false;
     const auto has = [](const auto& list, const auto& mark) {

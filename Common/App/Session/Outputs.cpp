@@ -41,7 +41,7 @@ float largestValue(const ImageRows& image) {
 ImageRows fitted(const ImageRows& image, Aov aov, const std::filesystem::path& path) {
     const bool png = hasExtension(path, ".png");
     if ((aov == Aov::Normal || aov == Aov::WideNormal) && (png || hasExtension(path, ".hdr"))) {
-        const ImageRows positive = mapped(image, [](float value) { return 0.5f * value + 0.5f; });
+        ImageRows positive = mapped(image, [](float value) { return 0.5f * value + 0.5f; });
         if (!png) return positive;
         return mapped(positive, [](float value) { return shared::srgbDecode(std::clamp(value, 0.0f, 1.0f)); });
     }

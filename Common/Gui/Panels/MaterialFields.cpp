@@ -191,7 +191,7 @@ std::vector<scene::SceneEdit> editsOf(const MaterialRows& rows, const scene::Sce
                                       scene::MaterialDesc material) {
     std::vector<scene::SceneEdit> edits{scene::SetMaterial{rows.name, std::move(material)}};
     for (const std::string& texture : rows.freed)
-        if (scene::textureUses(scene, texture) == 1) edits.push_back(scene::SetTexture{texture, std::nullopt});
+        if (scene::textureUses(scene, texture) == 1) edits.emplace_back(scene::SetTexture{texture, std::nullopt});
     return edits;
 }
 
@@ -252,7 +252,7 @@ void drawUnique(Gui& gui, const std::string& name) {
     const auto isTaken = [&](const std::string& other) { return scene.materials.contains(other); };
     const std::string own = scene::freeName(name, isTaken);
     std::vector<scene::SceneEdit> edits{scene::SetMaterial{own, scene.materials.at(name)}};
-    for (const scene::ObjectPath& path : paths) edits.push_back(scene::SetMaterialOf{path, own});
+    for (const scene::ObjectPath& path : paths) edits.emplace_back(scene::SetMaterialOf{path, own});
     editScene(gui, "Make unique", std::move(edits), false);
 }
 

@@ -130,7 +130,7 @@ void drawTransform(Gui& gui, const scene::ObjectPath& path, scene::Transform tra
         if (own == nullptr) continue;
         scene::Transform other = *own;
         changeAlike(before, transform, other);
-        if (other != *own) edits.push_back(scene::SetTransform{selected, std::move(other)});
+        if (other != *own) edits.emplace_back(scene::SetTransform{selected, std::move(other)});
     }
     editScene(gui, "Transform", std::move(edits));
 }
@@ -170,7 +170,7 @@ void drawObjectFields(Gui& gui, const scene::ObjectPath& path) {
         if (own.shape.index() != object.shape.index()) continue;
         scene::ObjectDesc other = own;
         changeAlike(object, changed, other);
-        if (other != own) edits.push_back(scene::SetObject{selected, std::move(other)});
+        if (other != own) edits.emplace_back(scene::SetObject{selected, std::move(other)});
     }
     editScene(gui, app::kindName(object), std::move(edits));
 }

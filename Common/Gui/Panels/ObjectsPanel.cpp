@@ -37,14 +37,14 @@ std::string materialFor(const Gui& gui, std::vector<scene::SceneEdit>& edits, co
         const std::string* own = materialNameOf(*findObject(scene, *gui.editor.selection()));
         if (own != nullptr && !own->empty()) return *own;
     }
-    if (!scene.materials.contains(usual)) edits.push_back(scene::SetMaterial{usual, desc});
+    if (!scene.materials.contains(usual)) edits.emplace_back(scene::SetMaterial{usual, desc});
     return usual;
 }
 
 void addObject(Gui& gui, const char* name, const scene::ObjectDesc::Shape& shape, std::vector<scene::SceneEdit> edits) {
     const auto index = static_cast<std::uint32_t>(gui.editor.document()->scene().objects.size());
     const scene::ObjectPath path{"", {index}};
-    edits.push_back(scene::PlaceObject{path, scene::ObjectDesc{shape}});
+    edits.emplace_back(scene::PlaceObject{path, scene::ObjectDesc{shape}});
     if (!editScene(gui, std::string("Add ") + name, std::move(edits), false)) return;
     gui.editor.select(path);
     gui.editing.revealsSelection = true;

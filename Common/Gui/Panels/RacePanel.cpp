@@ -242,8 +242,7 @@ const char* whyNotRunFile(const Gui& gui) {
 std::filesystem::path raceFile(const Gui& gui, const char* extension) {
     const std::filesystem::path folder = saveFolder(gui.settings.saveFolder);
     for (int i = 1;; ++i) {
-        const std::filesystem::path file =
-            folder / ("race" + (i > 1 ? "-" + std::to_string(i) : std::string()) + extension);
+        std::filesystem::path file = folder / ("race" + (i > 1 ? "-" + std::to_string(i) : std::string()) + extension);
         std::error_code none;
         if (!std::filesystem::exists(file, none)) return file;
     }

@@ -130,9 +130,9 @@ std::vector<std::string> chipTexts(const app::SessionState& state, bool isGpu, b
     texts.push_back(state.picture.spp > 0 ? std::to_string(state.picture.spp) + wanted + " spp" : "draft");
     if (state.renderSeconds > 0) texts.push_back(shortDuration(state.renderSeconds));
     if (state.picture.isLive)
-        texts.push_back("denoised, live");
+        texts.emplace_back("denoised, live");
     else if (state.picture.isDenoised && !state.denoisedRelmse)
-        texts.push_back("denoised");
+        texts.emplace_back("denoised");
     const std::string how = state.curve.empty() ? ", estimated" : ", measured";
     if (state.relmse)
         texts.push_back((state.denoisedRelmse ? "raw relMSE " : "relMSE ") + errorText(*state.relmse) + how);
@@ -154,13 +154,14 @@ StatusParts statusOf(const app::SessionState& state) {
 std::string fitStatus(const StatusParts& parts, float width, const TextWidth& widthOf) {
     constexpr std::size_t kMinDevice = 8; // letters and dots: less of a name tells nothing
     const std::string withEngine = joined({parts.title, parts.size, parts.rate, parts.engine});
-    const std::string all = joined({withEngine, parts.device});
+    std::string all = joined({withEngine, parts.device});
     if (widthOf(all) <= width) return all;
     if (widthOf(withEngine) <= width) {
         const std::string device = elided(parts.device, width - widthOf(withEngine + kBetween), widthOf);
         return device.size() >= kMinDevice ? joined({withEngine, device}) : withEngine;
     }
-    const std::string figures = joined({parts.size, parts.rate}), rest = joined({parts.title, figures});
+    const std::string figures = joined({parts.size, parts.rate});
+    std::string rest = joined({parts.title, figures});
     if (widthOf(rest) <= width) return rest;
     const std::string title = elided(parts.title, width - widthOf(kBetween + figures), widthOf);
     return elided(joined({title, figures}), width, widthOf);

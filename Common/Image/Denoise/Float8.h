@@ -18,8 +18,8 @@ inline constexpr int kLaneCount = 8;
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 // May begin at any float; as a value it is what a register holds.
-typedef float Float8 __attribute__((vector_size(32)));
-typedef float Float8InMemory __attribute__((vector_size(32), aligned(4), may_alias));
+using Float8 __attribute__((vector_size(32))) = float;
+using Float8InMemory __attribute__((vector_size(32), aligned(4), may_alias)) = float;
 
 RT_FN Float8 load(const float* p) {
     return *reinterpret_cast<const Float8InMemory*>(p);

@@ -105,8 +105,7 @@ std::optional<std::uint32_t> parseCount(std::string_view text) {
     return isValid ? std::optional(count) : std::nullopt;
 }
 
-// Without the count.
-std::string_view nameIn(std::string_view id) {
+std::string_view withoutCount(std::string_view id) {
     return id.substr(0, id.find(':'));
 }
 
@@ -123,12 +122,12 @@ std::span<const BuiltinScene> builtinScenes() {
 }
 
 bool isBuiltinScene(const std::string& id) {
-    return sceneNamed(nameIn(id)) != nullptr;
+    return sceneNamed(withoutCount(id)) != nullptr;
 }
 
 SceneDesc findBuiltinScene(const std::string& id) {
     const std::size_t colon = id.find(':');
-    const std::string_view name = nameIn(id);
+    const std::string_view name = withoutCount(id);
     const BuiltinScene* const found = sceneNamed(name);
     if (found == nullptr)
         throw InputError("scene \"" + id + "\": no such scene; nearest: " + nearestIds(name) +

@@ -29,7 +29,7 @@ std::optional<std::filesystem::path> locateAsset(const std::string& file, const 
         return other;
     }
     if (path.is_relative() && !path.empty())
-        if (const auto asset = findAsset(path)) return asset;
+        if (auto asset = findAsset(path)) return asset;
     if (standIn.empty())
         throw InputError(id + ": " + file + ": no such file, neither beside the scene nor among the assets");
     return std::nullopt;

@@ -128,6 +128,7 @@ const PlanetMap& mapOf(const std::string& name) {
 const std::vector<std::string>& planetMapNames() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> all;
+        all.reserve(kMaps.size());
         for (const PlanetMap& map : kMaps) all.emplace_back(map.name);
         return all;
     }();

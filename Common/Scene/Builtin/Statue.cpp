@@ -72,16 +72,16 @@ double wing(const glm::dvec3& p) {
     return ellipsoid(q, {17, 178, 86}) + feathers;
 }
 
-// Whatever is farther away than `kFar` need not be looked at.
-constexpr double kFar = 50;
+// Whatever is farther away than `kOutOfReach` need not be looked at.
+constexpr double kOutOfReach = 50;
 
 double figure(const glm::dvec3& p) {
     const double plinth = std::max(glm::length(glm::dvec2(p.x, p.z)) - 112, std::abs(p.y - 34) - 19);
-    double d = p.y < 612 + kFar ? blend(plinth, robe(p), 12) : kFar;
-    if (p.y < 390 - kFar) return d;
+    double d = p.y < 612 + kOutOfReach ? blend(plinth, robe(p), 12) : kOutOfReach;
+    if (p.y < 390 - kOutOfReach) return d;
     d = blend(d, arms(p), 14);
     d = blend(d, wing(p), 18);
-    if (p.y < 564 - kFar) return d;
+    if (p.y < 564 - kOutOfReach) return d;
     d = blend(d, roundCone(p, {0, 590, 0}, 26, {-4, 640, 0}, 18), 14);
     d = blend(d, ellipsoid(p - glm::dvec3(-6, 672, 0), {38, 46, 34}), 6);
     return blend(d, torch(p), 5);

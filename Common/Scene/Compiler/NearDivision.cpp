@@ -75,7 +75,7 @@ MeshData withPlaces(const MeshData& mesh, bool isMirrored) {
         append(result.colors, mesh.colors);
         append(result.tangents, mesh.tangents);
         result.uvs.insert(result.uvs.end(), places.begin(), places.end());
-        result.triangles.push_back({first, first + 1, first + 2});
+        result.triangles.emplace_back(first, first + 1, first + 2);
     }
     return result;
 }

@@ -92,8 +92,9 @@ std::uint32_t appendSkyMap(const ImageBackground& sky, std::uint32_t image, Comp
         for (std::uint32_t column = 0; column < made.width; ++column) {
             glm::dvec3 sum(0);
             for (int place = 0; place < kPlaces * kPlaces; ++place) {
-                const double u = (column + (place % kPlaces + 0.5) / kPlaces) / made.width;
-                const double v = (static_cast<double>(row) + (place / kPlaces + 0.5) / kPlaces) / made.height;
+                const int across = place % kPlaces, down = place / kPlaces;
+                const double u = (column + (across + 0.5) / kPlaces) / made.width;
+                const double v = (static_cast<double>(row) + (down + 0.5) / kPlaces) / made.height;
                 const glm::dvec2 at = placeOf(toImage * skyDirection(u, v));
                 sum += texelColor(out, source, cellOf(at.x, source.width), cellOf(at.y, source.height));
             }

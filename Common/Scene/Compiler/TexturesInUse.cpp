@@ -6,9 +6,9 @@ namespace rt::scene {
 
 namespace {
 
-class Search {
+class TextureSearch {
   public:
-    Search(const MaterialTable& materials, ModelCache& models) : materials_(materials), models_(models) {}
+    TextureSearch(const MaterialTable& materials, ModelCache& models) : materials_(materials), models_(models) {}
 
     void add(const MaterialDesc& material) {
         if (!seen_.insert(&material).second) return;
@@ -44,7 +44,7 @@ class Search {
 
 std::vector<std::string> texturesInUse(const SceneDesc& desc, const InstancePlan& plan, const MaterialTable& materials,
                                        ModelCache& models) {
-    Search search(materials, models);
+    TextureSearch search(materials, models);
     search.add(desc.objects);
     for (const auto& [name, prototype] : plan.prototypes()) {
         bool keepsMaterials = false;

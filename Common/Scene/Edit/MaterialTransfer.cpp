@@ -43,7 +43,7 @@ std::string MaterialTransfer::bringTexture(const std::string& name) {
     TextureDesc texture = found->second;
     forEachInnerTexture(texture, [&](std::string& inner) { inner = bringTexture(inner); });
     const auto [own, isNew] = textures_.place(name, texture);
-    if (isNew) edits_.push_back(SetTexture{own, texture});
+    if (isNew) edits_.emplace_back(SetTexture{own, texture});
     return broughtTextures_[name] = own;
 }
 
@@ -51,7 +51,7 @@ std::string MaterialTransfer::bring(const std::string& name) {
     MaterialDesc material = source_.materials.at(name);
     forEachTextureName(material, [&](std::string& texture) { texture = bringTexture(texture); });
     const auto [own, isNew] = materials_.place(name, material);
-    if (isNew) edits_.push_back(SetMaterial{own, material});
+    if (isNew) edits_.emplace_back(SetMaterial{own, material});
     return own;
 }
 
@@ -61,7 +61,7 @@ bool MaterialTransfer::assign(std::span<const ObjectPath> objects, const std::st
         for (const ObjectPath& surface : surfacesOf(scene_, object)) {
             hasAny = true;
             if (*materialNameOf(*findObject(scene_, surface)) != material)
-                edits_.push_back(SetMaterialOf{surface, material});
+                edits_.emplace_back(SetMaterialOf{surface, material});
         }
     return hasAny;
 }

@@ -215,7 +215,7 @@ std::vector<SceneEdit> duplicated(const SceneDesc& scene, const std::vector<Obje
         ++edit.path.indices.back();
         for (ObjectPath& copy : copies) copy = *placeAfter(edit, copy); // an insertion removes none
         copies.push_back(edit.path);
-        edits.push_back(std::move(edit));
+        edits.emplace_back(std::move(edit));
     }
     std::reverse(copies.begin(), copies.end());
     return edits;
@@ -223,7 +223,7 @@ std::vector<SceneEdit> duplicated(const SceneDesc& scene, const std::vector<Obje
 
 std::vector<SceneEdit> removed(const std::vector<ObjectPath>& paths) {
     std::vector<SceneEdit> edits;
-    for (auto path = paths.rbegin(); path != paths.rend(); ++path) edits.push_back(PlaceObject{*path, {}});
+    for (auto path = paths.rbegin(); path != paths.rend(); ++path) edits.emplace_back(PlaceObject{*path, {}});
     return edits;
 }
 

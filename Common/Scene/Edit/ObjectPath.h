@@ -19,9 +19,9 @@ struct ObjectPath {
     std::string prototype;              // of which; empty: among the scene's own objects
     std::vector<std::uint32_t> indices; // in its list, then in those of the groups that it leads through; never empty
 
-    auto operator<=>(const ObjectPath&) const = default;
-    ObjectPath child(std::size_t index) const;    // of a group
-    bool isWithin(const ObjectPath& group) const; // not the group itself
+    auto operator<=>(const ObjectPath&) const = default; // NOLINT(modernize-use-nullptr): `<=> 0` has no pointer
+    ObjectPath child(std::size_t index) const;           // of a group
+    bool isWithin(const ObjectPath& group) const;        // not the group itself
 };
 
 std::string textOf(const ObjectPath& path); // as the JSON path of a scene file: "/objects/3/objects/1"

@@ -47,8 +47,7 @@ struct Exchange {
             GroupDesc group;
             group.transform = std::move(*edit.transform);
             group.objects.push_back(std::move(object));
-            object.shape = std::move(group);
-            object.hidden = edit.isHidden;
+            object = ObjectDesc{std::move(group), edit.isHidden};
             edit.transform.reset();
         } else {
             GroupDesc group = std::move(std::get<GroupDesc>(object.shape));

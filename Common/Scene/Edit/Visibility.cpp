@@ -64,7 +64,7 @@ bool isShown(const SceneDesc& scene, const ObjectPath& path) {
 std::vector<SceneEdit> hidden(const SceneDesc& scene, const std::vector<ObjectPath>& paths, bool isHidden) {
     std::vector<SceneEdit> edits;
     for (const ObjectPath& path : paths)
-        if (findObject(scene, path)->hidden != isHidden) edits.push_back(SetHidden{path, isHidden});
+        if (findObject(scene, path)->hidden != isHidden) edits.emplace_back(SetHidden{path, isHidden});
     return edits;
 }
 
@@ -72,7 +72,7 @@ std::vector<SceneEdit> allShown(const SceneDesc& scene) {
     std::vector<SceneEdit> edits;
     ObjectPath list;
     walkObjects(scene.objects, list, [&](const ObjectPath& path, const ObjectDesc& object) {
-        if (object.hidden) edits.push_back(SetHidden{path, false});
+        if (object.hidden) edits.emplace_back(SetHidden{path, false});
         return true;
     });
     return edits;
@@ -86,7 +86,7 @@ std::vector<SceneEdit> soloed(const SceneDesc& scene, const std::vector<ObjectPa
         const bool isChosen = next != paths.end() && *next == path;
         const bool isAround = next != paths.end() && next->isWithin(path);
         const bool isLight = !isChosen && !isAround && givesLight(scene, object);
-        if (!isLight && object.hidden == (isChosen || isAround)) edits.push_back(SetHidden{path, !object.hidden});
+        if (!isLight && object.hidden == (isChosen || isAround)) edits.emplace_back(SetHidden{path, !object.hidden});
         return isAround || isLight;
     });
     return edits;

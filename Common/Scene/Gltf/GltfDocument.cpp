@@ -158,7 +158,7 @@ std::string GltfDocument::nameBeside(const std::string& name, const std::string&
         if (kUnwanted.find(c) != std::string_view::npos || static_cast<unsigned char>(c) < 0x20) c = '_';
     if (start.rfind(stem_ + ".", 0) != 0) start = stem_ + "." + start;
     for (int number = 1;; ++number) {
-        const std::string candidate = start + (number == 1 ? "" : "-" + std::to_string(number)) + ending;
+        std::string candidate = start + (number == 1 ? "" : "-" + std::to_string(number)) + ending;
         if (names_.insert(lowerCase(candidate)).second) return candidate;
     }
 }

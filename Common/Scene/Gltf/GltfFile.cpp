@@ -126,7 +126,7 @@ class BufferReader {
     fs::path present(const fs::path& path) {
         std::error_code none;
         if (!mayRead(path) || fs::exists(path, none)) return path;
-        const fs::path other = findInOtherCase(path);
+        fs::path other = findInOtherCase(path);
         if (other.empty()) return path;
         notices_.push_back(path.string() + ": there is no such file; read: " + other.filename().string());
         return other;

@@ -313,7 +313,7 @@ class Importer {
             notices.push_back("weights of joints are scaled to the sum 1 at " +
                               counted(rescaled_, "vertex", "vertices"));
         addAnimationNotice();
-        if (file_.model.scenes.size() > 1) notices.push_back("scenes other than the default one are left out");
+        if (file_.model.scenes.size() > 1) notices.emplace_back("scenes other than the default one are left out");
     }
 
     void addMotion() {

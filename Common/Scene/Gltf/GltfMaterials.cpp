@@ -8,6 +8,7 @@
 #include "Common/Scene/Gltf/GltfExtras.h"
 #include "Common/Scene/Gltf/GltfValues.h"
 #include "Common/Scene/Json/JsonNode.h"
+#include "Common/Scene/Reflectance.h"
 
 namespace rt::scene {
 
@@ -28,11 +29,7 @@ double largest(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-// At normal incidence, of an index of refraction; and back.
-double reflectanceOf(double ior) {
-    const double root = (ior - 1) / (ior + 1);
-    return root * root;
-}
+// Of a reflectance at normal incidence.
 double iorOf(double reflectance) {
     const double root = std::sqrt(share(reflectance));
     return root < 1 ? std::min((1 + root) / (1 - root), kLargestIor) : kLargestIor;
@@ -228,7 +225,7 @@ void GltfMaterials::addSpecular(const tinygltf::Value& specular, PrincipledDesc&
                                   Channel::Alpha);
     const GltfSlot slot(specular, "specularColorTexture");
     glm::dvec3 tint = glm::clamp(vectorOf(specular, "specularColorFactor", 1), 0.0, kLargest);
-    const double max = largest(tint), reflectance = reflectanceOf(p.ior);
+    const double max = largest(tint), reflectance = reflectanceOfIor(p.ior);
     if (max > 1 && p.transmission.factor > 0) {
         textures_.leaveOut("what exceeds 1 in the specular colour of glass");
     } else if (max > 1 && reflectance > 0) {

@@ -104,7 +104,7 @@ fs::path fileOf(const fs::path& path, const std::string& uri) {
 } // namespace
 
 fs::path besideGltf(const fs::path& path, const std::string& uri) {
-    const fs::path whole = fileOf(path, uri);
+    fs::path whole = fileOf(path, uri);
     const std::size_t end = uri.find_first_of("?#", 1);
     std::error_code none;
     // Programs write names without escapes, too.

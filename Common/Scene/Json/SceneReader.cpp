@@ -131,7 +131,7 @@ void addKnownNames(const SceneDesc& scene, std::string_view section, std::string
 } // namespace
 
 std::string SceneReferences::name(const JsonNode& node, const char* section) const {
-    const std::string text = node.string();
+    std::string text = node.string();
     const auto names = root_.find(section);
     const bool isModels = model_ != nullptr && sectionHas(*model_, section, text);
     if (isModels || (names && names->has(text.c_str()))) return text;
@@ -149,7 +149,7 @@ ColorOrTexture SceneReferences::colorOrTexture(const JsonNode& node) const {
 }
 
 std::string SceneReferences::file(const JsonNode& node, bool hasStandIn) const {
-    const std::string text = node.string();
+    std::string text = node.string();
     if (text.find('\0') != text.npos) node.failValue("a name of a file, which has no character 0");
     const std::filesystem::path path(text);
     const std::filesystem::path beside = path.is_absolute() ? path : folder_ / path;
@@ -163,7 +163,7 @@ std::string SceneReferences::file(const JsonNode& node, bool hasStandIn) const {
 }
 
 std::string readChoice(const JsonNode& node, const std::vector<std::string>& allowed) {
-    const std::string text = node.string();
+    std::string text = node.string();
     std::string known;
     for (const std::string& name : allowed) {
         if (name == text) return text;

@@ -116,7 +116,7 @@ std::string MaterialXSurface::texture(const MaterialXSignal& found, const glm::d
     image.colorSpace = space;
     for (const auto& [name, known] : scene_.textures)
         if (known == TextureDesc(image)) return name;
-    const std::string name = names_.unique(found.imageNode, "image", scene_.textures.size());
+    std::string name = names_.unique(found.imageNode, "image", scene_.textures.size());
     scene_.textures[name] = image;
     return name;
 }

@@ -223,7 +223,7 @@ class MaterialXWriter {
             const std::string set = add("texcoord", "vector2", {valueInput("index", "integer", "1")});
             inputs.push_back(nodeInput("texcoord", "vector2", set));
         }
-        const std::string name = add(isTiled ? "tiledimage" : "image", type, std::move(inputs));
+        std::string name = add(isTiled ? "tiledimage" : "image", type, std::move(inputs));
         images_.emplace_back(key, type, name);
         return name;
     }
@@ -232,7 +232,7 @@ class MaterialXWriter {
         return add(node, type, {std::move(first), std::move(second)});
     }
     std::string add(const char* node, const std::string& type, std::vector<XmlElement> inputs) {
-        const std::string name = std::string(node) + std::to_string(++counts_[node]);
+        std::string name = std::string(node) + std::to_string(++counts_[node]);
         root_.children.push_back({node, {{"name", name}, {"type", type}}, std::move(inputs), 0});
         return name;
     }

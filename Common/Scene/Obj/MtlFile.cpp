@@ -108,7 +108,7 @@ template <auto member>
 void readColor(Statement& statement, MtlMaterial& material) {
     const std::string kind = lowerCase(statement.peek());
     if (kind == "spectral" || kind == "xyz")
-        material.leftOut.push_back("a colour by its spectrum or in CIE XYZ");
+        material.leftOut.emplace_back("a colour by its spectrum or in CIE XYZ");
     else
         material.*member = statement.color();
 }
@@ -125,7 +125,7 @@ void readImage(Statement& statement, MtlMaterial& material) {
 
 void readOpacity(Statement& statement, MtlMaterial& material) {
     if (statement.peek() == "-halo") {
-        material.leftOut.push_back("the dependence of opacity on direction (-halo)");
+        material.leftOut.emplace_back("the dependence of opacity on direction (-halo)");
         statement.next();
     }
     material.opacity = statement.number();
@@ -144,11 +144,11 @@ void readIllumination(Statement& statement, MtlMaterial& material) {
     if (!(model >= 0 && model <= kLastModel && model == std::floor(model)))
         throw InputError(statement.keyword() + ": the models of illumination are 0 to " + std::to_string(kLastModel));
     material.illumination = static_cast<int>(model);
-    if (model == kLastModel) material.leftOut.push_back("that only shadows are seen (illum 10)");
+    if (model == kLastModel) material.leftOut.emplace_back("that only shadows are seen (illum 10)");
 }
 
 void readAnisotropy(Statement& statement, MtlMaterial& material) {
-    if (statement.number() != 0) material.leftOut.push_back("anisotropy (aniso)");
+    if (statement.number() != 0) material.leftOut.emplace_back("anisotropy (aniso)");
 }
 
 template <const auto& what>

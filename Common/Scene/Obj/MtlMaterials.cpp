@@ -12,6 +12,7 @@
 #include "Common/Scene/Json/JsonNode.h"
 #include "Common/Scene/Obj/MtlModels.h"
 #include "Common/Scene/Obj/ObjText.h"
+#include "Common/Scene/Reflectance.h"
 
 namespace rt::scene {
 
@@ -35,10 +36,6 @@ double iorOf(const MtlMaterial& m) {
     return m.ior.value_or(1) > 1 ? std::min(*m.ior, kLargestCoatIor) : kUsualIor;
 }
 
-double reflectanceOf(double ior) { // at normal incidence
-    const double amplitude = (ior - 1) / (ior + 1);
-    return amplitude * amplitude;
-}
 double iorOfReflectance(double reflectance) {
     const double amplitude = std::sqrt(reflectance);
     return amplitude < 1 ? std::min((1 + amplitude) / (1 - amplitude), kLargestCoatIor) : kLargestCoatIor;
@@ -222,7 +219,7 @@ MaterialDesc MtlMaterials::glass(const MtlMaterial& source) {
 
 MaterialDesc MtlMaterials::mirror(const MtlMaterial& source) {
     const glm::dvec3 tint = specularOf(source);
-    if (hasDiffuse(source) && maxComponent(tint) <= reflectanceOf(kLargestCoatIor)) return coated(source);
+    if (hasDiffuse(source) && maxComponent(tint) <= reflectanceOfIor(kLargestCoatIor)) return coated(source);
     MaterialDesc material;
     const bool isPlain =
         !(source.specularMap || source.roughnessMap || isLayered(source) || isBumpy(source) || isSeeThrough(source));
@@ -283,7 +280,7 @@ MaterialDesc MtlMaterials::opaque(const MtlMaterial& source) {
         const glm::dvec3 specular = specularOf(source);
         const double twice = 2 * maxComponent(specular); // of 0.5, which the index of refraction stands for
         p.specular.factor = std::min(twice, 1.0);
-        if (twice > 1) p.ior = iorOfReflectance(twice * reflectanceOf(p.ior));
+        if (twice > 1) p.ior = iorOfReflectance(twice * reflectanceOfIor(p.ior));
         p.specularColor = color(specular / maxComponent(specular), source.specularMap, "map_Ks", ColorSpace::Srgb);
     } else if (source.specular || !usesPbr(source) || hasNoHighlight(source)) {
         p.specular.factor = 0;

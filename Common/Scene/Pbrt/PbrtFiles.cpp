@@ -20,7 +20,7 @@ fs::path PbrtFiles::locate(const std::string& name, const PbrtPlace& place) {
         place.fail('"' + printable(name, 200) + "\": must be the path of a file");
     fs::path first;
     for (const fs::path& folder : {folder_, fs::absolute(fs::path(*place.file)).parent_path()}) {
-        const fs::path path = (folder / file).lexically_normal();
+        fs::path path = (folder / file).lexically_normal();
         // Of files that must not be read nobody learns whether they exist: they are refused when they are opened.
         if (!mayRead(path) || isFile(path)) return path;
         if (first.empty()) first = path;

@@ -16,7 +16,6 @@ namespace rt::scene {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr const char* kLights = "point, spot, distant, infinite, goniometric, projection";
 
 glm::dvec3 bounded(const glm::dvec3& light) {
@@ -74,7 +73,7 @@ void PbrtLights::point(const PbrtParameters& parameters, const Affine& toWorld) 
     PointLightDesc light;
     light.position = positionOf(parameters, parameters.vector("from", glm::dvec3(0)), toWorld);
     const double power = parameters.number("power", -1);
-    light.intensity = bounded(color(parameters, "I") * (power > 0 ? power / (4 * kPi) : 1));
+    light.intensity = bounded(color(parameters, "I") * (power > 0 ? power / (4 * std::numbers::pi) : 1));
     scene_.objects.push_back({light});
 }
 
@@ -97,7 +96,7 @@ void PbrtLights::spot(const PbrtParameters& parameters, const Affine& toWorld) {
     light.intensity = color(parameters, "I");
     const double inner = std::cos(glm::radians(light.innerAngle)), outer = std::cos(glm::radians(light.outerAngle));
     // Over its cone, of whose edge the mean of both angles is taken.
-    const double solidAngle = 2 * kPi * ((1 - inner) + (inner - outer) / 2);
+    const double solidAngle = 2 * std::numbers::pi * ((1 - inner) + (inner - outer) / 2);
     if (const double power = parameters.number("power", -1); power > 0 && solidAngle > 0)
         light.intensity *= power / solidAngle;
     addSpot(parameters, light);
@@ -129,7 +128,7 @@ void PbrtLights::infinite(const PbrtParameters& parameters, const Affine& toWorl
     const std::string file = parameters.string("filename", "");
     if (!file.empty()) return addImage(parameters, file, toWorld);
     const double illuminance = parameters.number("illuminance", -1);
-    const glm::dvec3 light = color(parameters, "L") * (illuminance > 0 ? illuminance / kPi : 1);
+    const glm::dvec3 light = color(parameters, "L") * (illuminance > 0 ? illuminance / std::numbers::pi : 1);
     if (auto* constant = std::get_if<ConstantBackground>(&scene_.background)) // which add up
         constant->color = bounded(constant->color + light);
     else
@@ -166,7 +165,7 @@ void PbrtLights::addEmission(const PbrtParameters& parameters, const PbrtShape& 
     if (const double power = parameters.number("power", -1); power > 0) {
         const double area = pbrtArea(shape, toWorld) * (isTwoSided ? 2 : 1);
         // Each light of a shape has all of it, which a mesh's triangles get in the mean.
-        const double factor = power * static_cast<double>(shape.lights) / (kPi * area);
+        const double factor = power * static_cast<double>(shape.lights) / (std::numbers::pi * area);
         if (area > 0) surface.emission *= std::min(factor, kLargest);
         if (!surface.emissionTexture.empty())
             notices_.add("the power of lights with an image is that without it", parameters.place);

@@ -155,7 +155,7 @@ std::string PbrtParameters::string(std::string_view name, const std::string& usu
 
 std::string PbrtParameters::oneOf(std::string_view name, const std::string& usual,
                                   std::initializer_list<const char*> allowed) const {
-    const std::string value = string(name, usual);
+    std::string value = string(name, usual);
     std::string all;
     for (const char* known : allowed) {
         if (value == known) return value;

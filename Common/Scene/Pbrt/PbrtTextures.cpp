@@ -13,7 +13,7 @@ namespace rt::scene {
 
 namespace {
 
-constexpr const char* kKinds =
+constexpr const char* kKnownTextures =
     "constant, imagemap, scale, mix, directionmix, checkerboard, bilerp, dots, fbm, wrinkled, windy, marble, ptex";
 
 Wrap wrapOf(const std::string& wrap) {
@@ -234,7 +234,7 @@ PbrtTexture PbrtTextures::standIn(const std::string& kind, const PbrtParameters&
         made.value = noise;
         instead = "marble of ours";
     } else if (kind != "fbm" && kind != "wrinkled" && kind != "windy" && kind != "ptex" && kind != "uv") {
-        parameters.place.fail("Texture \"" + printable(kind, 100) + "\" is unknown; known are " + kKinds);
+        parameters.place.fail("Texture \"" + printable(kind, 100) + "\" is unknown; known are " + kKnownTextures);
     }
     for (const PbrtParameter& parameter : parameters.list) parameter.isUsed = true;
     notices_.add("textures \"" + kind + "\" are left out: " + instead + " instead", parameters.place);
