@@ -1,14 +1,17 @@
 # Every source and header compiles alone, without warnings: what it uses it includes. Builds merge sources, sixteen at a
 # time, and so hide an include that is missing as long as a neighbour has it.
 #
-# Compiling each by itself takes ten minutes of processor time, most of it for the same headers again and again. So Clang
-# reads a header once, whoever includes it, as a part of a module. Who includes it sees that part of the module, and what
-# that includes itself, but nothing else: such a use is an error that names the header, "declaration of 'Frame' must be
-# imported from module 'Headers.Common/...'". There are three steps:
+# Compiling each by itself takes long, most of it for the same headers again and again. So Clang reads a header once,
+# whoever includes it, as a part of a module. Who includes it sees that part of the module, and what that includes itself,
+# but nothing else: such a use is an error that names the header, "declaration of 'Frame' must be imported from module
+# 'Headers.Common/...'". There are three steps:
 #   Libraries   the headers of other projects make one module, of which all is seen at once: the lack of an include of
 #               these stays unnoticed where another one of them is there
 #   Headers     ours make another one
 #   <target>    each source, with the definitions and include folders of its target; targets beside each other
+#
+# Headers are part of every change, as many files include them. Sources take ten minutes of processor time even so, at
+# night: that one of them lacks an include stops nobody whose build merges them.
 #
 # Only here are warnings errors: users' compilers are of many versions. Clang on Linux is what this was tried with.
 find_program(RT_ALONE_CLANG clang++)
@@ -99,12 +102,14 @@ foreach(target IN LISTS targets)
         list(LENGTH files count)
         math(EXPR milliseconds "1000 + ${count} * 500")
         rt_alone_step(${target} sources ${milliseconds} TARGETS ${target} FILES ${files})
-        set_tests_properties(structure.alone.${target} PROPERTIES FIXTURES_REQUIRED "aloneLibraries;aloneHeaders")
-        # Tests at night: nobody's build but ours compiles them, and theirs are half of all sources.
-        if(folder MATCHES "/tests$")
-            set_tests_properties(structure.alone.${target} PROPERTIES LABELS "structure;nightly")
+        set_tests_properties(structure.alone.${target} PROPERTIES FIXTURES_REQUIRED "aloneLibraries;aloneHeaders"
+                             LABELS "structure;nightly")
+        math(EXPR milliseconds "10000 + ${count} * 500")
+        rt_tidy_test(${target} ${alone}/${target}.$<CONFIG>.cmake ${milliseconds})
+        # Tests at night: theirs are half of all sources, and what is slow in them slows nobody down.
+        if(folder MATCHES "/tests(/bench)?$")
+            set_tests_properties(structure.tidy.${target} PROPERTIES LABELS "structure;nightly")
         endif()
-        rt_tidy_tests(${target} ${alone}/${target}.$<CONFIG>.cmake)
     endif()
 endforeach()
 if(sources)

@@ -1,22 +1,26 @@
 # Fails where clang-tidy finds what .clang-tidy names, in the sources of one target and the headers that they include.
 # CONFIG sets files, definitions and includes, as Alone.cmake writes them.
+#
+# One source, MERGED, which this writes, includes all of them: headers, which take most of the time, are read and looked
+# at once for a target. So what is local to a source needs a name that no other source of its target has.
 cmake_minimum_required(VERSION 3.25)
 if(NOT CLANG_TIDY)
     message(FATAL_ERROR "clang-tidy was not found. Debian, Ubuntu: apt install clang-tidy.")
 endif()
 include(${CONFIG})
 
-list(FILTER files EXCLUDE REGEX "\\.(generic|x86_64_v[0-9])\\.cpp$") # one text, compiled for several instruction sets
-list(LENGTH files count)
-if(count EQUAL 0)
-    message(STATUS "no file of this target is looked at")
-    return()
-endif()
-
+# One text is compiled for several instruction sets: here for the one that needs no options of the compiler.
+list(TRANSFORM files REPLACE "\\.x86_64_v[0-9]\\.cpp$" ".generic.cpp")
+list(REMOVE_DUPLICATES files)
+list(TRANSFORM files REPLACE "(.+)" "#include \"\\1\"\n" OUTPUT_VARIABLE lines)
+list(JOIN lines "" text)
+file(WRITE ${MERGED} "${text}")
 include(${CMAKE_CURRENT_LIST_DIR}/ClangOptions.cmake)
-execute_process(COMMAND ${CLANG_TIDY} --quiet --warnings-as-errors=* ${files} -- -x c++ ${options}
+execute_process(COMMAND ${CLANG_TIDY} --quiet --config-file=${ROOT}/.clang-tidy --warnings-as-errors=*
+                        --checks=-bugprone-suspicious-include ${MERGED} -- -x c++ ${options}
                 RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_QUIET)
 if(NOT code EQUAL 0)
     message(FATAL_ERROR "${output}")
 endif()
+list(LENGTH files count)
 message(STATUS "clang-tidy has nothing to say of ${count} files")
