@@ -12,6 +12,7 @@ include(${CONFIG})
 # One text is compiled for several instruction sets: here for the one that needs no options of the compiler.
 list(TRANSFORM files REPLACE "\\.x86_64_v[0-9]\\.cpp$" ".generic.cpp")
 list(REMOVE_DUPLICATES files)
+list(FILTER files EXCLUDE REGEX "/EmbeddedShaders\\.cpp$") # a few lines, but megabytes of numbers
 list(TRANSFORM files REPLACE "(.+)" "#include \"\\1\"\n" OUTPUT_VARIABLE lines)
 list(JOIN lines "" text)
 file(WRITE ${MERGED} "${text}")
