@@ -43,6 +43,7 @@ int spawn(const std::vector<std::string>& arguments,
     dup2(file, 1);
     dup2(file, 2);
     std::vector<char*> pointers;
+    pointers.reserve(arguments.size() + 1);
     for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
     pointers.push_back(nullptr);
     execvp(pointers[0], pointers.data());

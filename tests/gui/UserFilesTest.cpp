@@ -22,7 +22,7 @@ class UserFilesTest : public testing::Test {
 
     // Of a window that is opened with these arguments.
     static app::Options options(std::vector<std::string> arguments) {
-        arguments.push_back("--window");
+        arguments.emplace_back("--window");
         return app::parseOptions("ray-tracing-cpu", std::move(arguments), std::cout).value();
     }
 

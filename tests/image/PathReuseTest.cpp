@@ -36,6 +36,7 @@ double varianceOf(const std::vector<image::Image>& images) {
     double sum = 0;
     for (std::size_t i = 0; i < images[0].data.size(); ++i) {
         std::vector<double> values;
+        values.reserve(images.size());
         for (const image::Image& picture : images) values.push_back(static_cast<double>(picture.data[i]));
         sum += rt::image::estimate(values).varianceOfMean;
     }
@@ -68,7 +69,7 @@ TEST(PathReuse, ChangesNothingButNoise) {
         engine->setScene(scene, nullptr);
         const auto images = [&](PathReuse reuse, std::uint32_t firstSeed) {
             settings.pathReuse = reuse;
-            const auto result = independentImages(*engine, *scene, settings, firstSeed);
+            auto result = independentImages(*engine, *scene, settings, firstSeed);
             EXPECT_EQ(engine->report().rays.reuse > 0, reuse == PathReuse::On) << id;
             return result;
         };
@@ -138,7 +139,7 @@ TEST(PathReuse, AimsAtGlass) {
     const auto images = [&](bool aims, std::uint32_t firstSeed, double& raysAnImage) {
         settings.specularConnections = aims;
         EXPECT_EQ(methodsOf(*scene, settings), aims ? kReuseAimed : kReuseScattered);
-        const auto result = independentImages(*engine, *scene, settings, firstSeed);
+        auto result = independentImages(*engine, *scene, settings, firstSeed);
         raysAnImage = static_cast<double>(engine->report().rays.all());
         return result;
     };

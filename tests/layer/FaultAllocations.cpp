@@ -15,6 +15,7 @@
 
 // What glibc's own functions are called beside the names that are replaced here: to look these up by dlsym would
 // allocate.
+// NOLINTBEGIN(bugprone-reserved-identifier)
 extern "C" {
 void* __libc_malloc(size_t bytes);
 void* __libc_calloc(size_t count, size_t bytes);
@@ -22,6 +23,7 @@ void* __libc_realloc(void* memory, size_t bytes);
 void* __libc_memalign(size_t alignment, size_t bytes);
 void __libc_free(void* memory);
 }
+// NOLINTEND(bugprone-reserved-identifier)
 
 namespace {
 
@@ -76,6 +78,7 @@ __attribute__((destructor)) void writeCount() {
 
 extern "C" {
 
+// NOLINTNEXTLINE(bugprone-reserved-identifier): glibc's name
 int __libc_start_main(Main* program, int count, char** arguments, void (*begin)(), void (*end)(), void (*unload)(),
                       void* stack) {
     realMain = program;

@@ -117,7 +117,8 @@ class MeshMemory : public Memory {
         Square made;
         const auto last = static_cast<float>(side - 1);
         for (std::size_t i = 0; i < side * side; ++i) {
-            const float x = static_cast<float>(i % side) / last, y = static_cast<float>(i / side) / last;
+            const std::size_t column = i % side, row = i / side;
+            const float x = static_cast<float>(column) / last, y = static_cast<float>(row) / last;
             const float z = 0.05f * std::sin(20 * x) * std::sin(30 * y);
             made.positions.insert(made.positions.end(), {x, y, z + static_cast<float>(number)});
             made.normals.insert(made.normals.end(), {0, 0, 1});

@@ -72,7 +72,7 @@ std::vector<Include> quotedIncludes(const fs::path& file) {
 // Path relative to the root of what `target` names in `file`; empty when there is no such file of ours. The header
 // X.rgen.h is generated from Shaders/X.rgen and counts as that.
 fs::path resolve(const fs::path& file, const std::string& target) {
-    const fs::path shader = fs::path("Shaders") / fs::path(target).stem();
+    fs::path shader = fs::path("Shaders") / fs::path(target).stem();
     if (fs::exists(kRoot / shader)) return shader;
     for (const fs::path& base : {kRoot, file.parent_path()}) {
         if (fs::exists(base / target))
