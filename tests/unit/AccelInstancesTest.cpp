@@ -70,7 +70,7 @@ TEST(AccelInstances, AreHitLikeTransformedGeometry) {
         for (std::uint32_t t = own.firstTriangle; t < own.firstTriangle + own.triangleCount; ++t) {
             const shared::uvec3 v = placed.triangles[t];
             baked.addTriangle(place(placed.positions[v.x]), place(placed.positions[v.y]), place(placed.positions[v.z]));
-            origin.push_back({i, t});
+            origin.emplace_back(i, t);
         }
     }
     std::vector<Ray> rays;

@@ -220,14 +220,14 @@ Geometry meshAndSpheres() {
             const float phi = 2.0f * shared::kPi * static_cast<float>(i) / static_cast<float>(columns);
             const float r = 1.0f + 0.1f * std::sin(8.0f * theta) * std::cos(7.0f * phi);
             const float across = j == 0 || j == rows ? 0.0f : r * std::sin(theta);
-            g.positions.push_back({across * std::cos(phi), r * std::cos(theta), across * std::sin(phi)});
+            g.positions.emplace_back(across * std::cos(phi), r * std::cos(theta), across * std::sin(phi));
         }
     }
     for (std::uint32_t j = 0; j < rows; ++j) {
         for (std::uint32_t i = 0; i < columns; ++i) {
             const std::uint32_t a = j * columns + i, b = j * columns + (i + 1) % columns;
-            if (j != 0) g.triangles.push_back({a, b, b + columns});
-            if (j != rows - 1) g.triangles.push_back({a, b + columns, a + columns});
+            if (j != 0) g.triangles.emplace_back(a, b, b + columns);
+            if (j != rows - 1) g.triangles.emplace_back(a, b + columns, a + columns);
         }
     }
     Random random(63);
@@ -248,7 +248,7 @@ class EmbreeScene {
         RTCGeometry spheres = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_SPHERE_POINT);
         std::vector<shared::vec4> points;
         for (const shared::Sphere& s : g.spheres) {
-            points.push_back({s.center, s.radius});
+            points.emplace_back(s.center, s.radius);
         }
         copy(spheres, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, points);
         attach(spheres);
@@ -308,6 +308,7 @@ void expectAgreementWithEmbree(int rayCount) {
         rays.push_back(ray);
     }
     std::vector<float> theirs;
+    theirs.reserve(rays.size());
     for (const Ray& ray : rays) {
         theirs.push_back(embree.closest(ray));
     }

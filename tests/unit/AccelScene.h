@@ -52,7 +52,7 @@ struct Geometry {
     void addTriangle(vec3 a, vec3 b, vec3 c) {
         const std::uint32_t first = static_cast<std::uint32_t>(positions.size());
         positions.insert(positions.end(), {a, b, c});
-        triangles.push_back({first, first + 1, first + 2});
+        triangles.emplace_back(first, first + 1, first + 2);
     }
 };
 

@@ -234,7 +234,7 @@ TEST(Shapes, StripsEndWhereTheirEdgesAre) {
 TEST(Shapes, MovingSpheresAreWhereTheyAreAtTheTimeOfTheRay) {
     Geometry g;
     g.addSphere(vec3(0.0f), 1.0f);
-    g.motions.push_back(vec3(0.0f, 4.0f, 0.0f));
+    g.motions.emplace_back(0.0f, 4.0f, 0.0f);
     for (const std::uint32_t maxLinear : {0u, kAlwaysLinear}) {
         const auto accel = buildAccel(g, maxLinear);
         for (const NamedQuery& q : runnableQueries()) {

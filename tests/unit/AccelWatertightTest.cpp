@@ -38,7 +38,7 @@ Mesh closedMesh(int levels, float bumps) {
                 const auto near = [&](std::uint32_t i, std::uint32_t j) {
                     return shared::length(m.vertices[i] - m.vertices[j]) < 1.1f;
                 };
-                if (near(a, b) && near(b, c) && near(c, a)) m.triangles.push_back({a, b, c});
+                if (near(a, b) && near(b, c) && near(c, a)) m.triangles.emplace_back(a, b, c);
             }
         }
     }

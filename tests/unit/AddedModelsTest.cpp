@@ -63,7 +63,7 @@ class AddedModelsTest : public testing::Test {
         document.perform("Add model", {setModel(name, file), PlaceObject{{"", {end}}, ObjectDesc{instance}}});
     }
     std::string save(const SceneDesc& scene, const std::string& source = "base.json") const {
-        const std::string text =
+        std::string text =
             app::sceneFileText(scene, (folder_ / source).string(), {}, (folder_ / "saved.json").string());
         write("saved.json", text);
         return text;

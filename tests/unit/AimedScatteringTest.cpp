@@ -21,16 +21,16 @@ const vec3 kAlbedo(0.8f, 0.5f, 0.2f);
 
 // A diffuse vertex, and a sphere of sine s = radius / distance, whose centre is at the height rise * s above its
 // horizon.
-struct Constellation {
+struct AimedConstellation {
     AimedSphere sphere{};
     Vertex v{};
 };
 
-Constellation constellation(Uniforms& uniform, double s, double rise) {
+AimedConstellation constellation(Uniforms& uniform, double s, double rise) {
     const dvec3 n = randomDirection(uniform);
     const dvec3 t = glm::normalize(glm::cross(n, randomDirection(uniform)));
     const double z = s * rise, distance = uniform.logBetween(1e-2, 1e2);
-    Constellation c;
+    AimedConstellation c;
     c.v.origin = vec3(test::inBox(uniform, 1));
     c.v.normal = c.v.shading = vec3(n);
     c.v.bsdf.albedo = kAlbedo;
@@ -39,7 +39,7 @@ Constellation constellation(Uniforms& uniform, double s, double rise) {
     return c;
 }
 
-BsdfSample sampled(const Constellation& c, float share, Uniforms& uniform) {
+BsdfSample sampled(const AimedConstellation& c, float share, Uniforms& uniform) {
     const BsdfSample b = sampleLambertian(kAlbedo, c.v.shading, uniform.pair());
     return aimScattering(c.sphere, c.v, uniform.pair(), uniform(), share, b);
 }
@@ -50,7 +50,7 @@ TEST(AimedScattering, KeepsTheLightOfAllDirectionsAndOfThoseToTheSphere) {
     for (const double s : {0.02, 0.2, 0.5, 0.9, 0.99}) {
         for (const double rise : {-0.7, 0.0, 0.5, 1.0, 1.0 / s}) {
             for (const float share : {0.1f, 0.7f}) {
-                const Constellation c = constellation(uniform, s, rise);
+                const AimedConstellation c = constellation(uniform, s, rise);
                 const SphereCone cone = aimedCone(c.sphere, c.v.origin);
                 Mean all, within, cosines;
                 for (int i = 0; i < 1 << 14; ++i) {
@@ -79,7 +79,7 @@ TEST(AimedScattering, RatioIsThatOfTheSample) {
     Uniforms uniform(2);
     for (const double s : {0.1, 0.6}) {
         for (const double rise : {0.0, 0.8, 1.2}) {
-            const Constellation c = constellation(uniform, s, rise);
+            const AimedConstellation c = constellation(uniform, s, rise);
             const SphereCone cone = aimedCone(c.sphere, c.v.origin);
             int aimed = 0;
             for (int i = 0; i < 1000; ++i) {
@@ -98,7 +98,7 @@ TEST(AimedScattering, RatioIsThatOfTheSample) {
 TEST(AimedScattering, WithoutAShareChangesNothing) {
     Uniforms uniform(3);
     for (int i = 0; i < 1000; ++i) {
-        const Constellation c = constellation(uniform, uniform.between(0.01, 0.99), uniform.between(-0.9, 1));
+        const AimedConstellation c = constellation(uniform, uniform.between(0.01, 0.99), uniform.between(-0.9, 1));
         const BsdfSample b = sampleLambertian(kAlbedo, c.v.shading, uniform.pair());
         const BsdfSample same = aimScattering(c.sphere, c.v, uniform.pair(), uniform(), 0.0f, b);
         EXPECT_TRUE(same.wi == b.wi && same.weight == b.weight && same.pdf == b.pdf);

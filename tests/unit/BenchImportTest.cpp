@@ -35,7 +35,7 @@ constexpr std::uint32_t kSide = 16;
 std::string pictureOff(const TempFolder& folder, const std::string& name, float off) {
     image::Image picture(kSide, kSide, 3);
     for (float& value : picture.data) value = 0.5f + off;
-    const std::string file = (folder.path() / name).string();
+    std::string file = (folder.path() / name).string();
     image::writeImage(file, picture);
     return file;
 }

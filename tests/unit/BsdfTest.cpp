@@ -15,7 +15,7 @@ using test::kSignificance;
 using test::Mean;
 using test::Uniforms;
 
-const vec3 kUp(0, 0, 1);
+const vec3 kNormal(0, 0, 1);
 
 Bsdf lambertian(const vec3& albedo = vec3(1)) {
     Bsdf m{};
@@ -87,7 +87,7 @@ TEST_P(MetalFuzz, LobeHasTheExactDistribution) {
         for (int j = 0; j < sectors; ++j)
             weights[k * sectors + j] = fuzzCdf(fuzz, edge(k + 1)) - fuzzCdf(fuzz, edge(k));
     for (int i = 0; i < 1 << 19; ++i) {
-        const BsdfSample s = sampleBsdf(kFeatureAll, metal(float(fuzz)), kUp, 1, wo, uniform.pair(), 0);
+        const BsdfSample s = sampleBsdf(kFeatureAll, metal(float(fuzz)), kNormal, 1, wo, uniform.pair(), 0);
         const double r2 = (double(s.wi.x) * s.wi.x + double(s.wi.y) * s.wi.y) / (fuzz * fuzz);
         const int sector =
             static_cast<int>((std::atan2(s.wi.y, s.wi.x) / (2 * std::numbers::pi) + 1) * sectors) % sectors;
@@ -122,7 +122,7 @@ TEST_P(MetalFuzz, LosesExactlyWhatPointsIntoTheSurface) {
         Mean reflected;
         for (int i = 0; i < 1 << 16; ++i) {
             const BsdfSample s =
-                sampleBsdf(kFeatureAll, metal(float(fuzz)), kUp, 1, vec3(inPlane(cosine)), uniform.pair(), 0);
+                sampleBsdf(kFeatureAll, metal(float(fuzz)), kNormal, 1, vec3(inPlane(cosine)), uniform.pair(), 0);
             reflected.add(s.weight.x);
             ASSERT_TRUE(s.weight.x == 0 || s.wi.z > 0);
         }
@@ -136,8 +136,8 @@ TEST_P(MetalFuzz, SampleAndEvaluationAgree) {
     const vec3 albedo(0.9f, 0.5f, 0.1f);
     const vec3 wo = normalize(vec3(0.5f, 0.2f, 0.6f));
     for (int i = 0; i < 4096; ++i) {
-        const BsdfSample s = sampleBsdf(kFeatureAll, metal(fuzz, albedo), kUp, 1, wo, uniform.pair(), 0);
-        const vec4 f = evalBsdf(kFeatureAll, metal(fuzz, albedo), kUp, wo, s.wi);
+        const BsdfSample s = sampleBsdf(kFeatureAll, metal(fuzz, albedo), kNormal, 1, wo, uniform.pair(), 0);
+        const vec4 f = evalBsdf(kFeatureAll, metal(fuzz, albedo), kNormal, wo, s.wi);
         ASSERT_EQ(s.delta, 0u);
         ASSERT_GT(s.pdf, 0.0f);
         ASSERT_EQ(f.w, s.pdf);
@@ -152,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(Fuzz, MetalFuzz, testing::Values(0.002, 0.01, 0.1, 0.5,
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
 
 TEST(Metal, FuzzOneIsACosineLobe) {
-    const vec3 r = kUp;
+    const vec3 r = kNormal;
     for (const double cosine : {0.9, 0.5, 0.1})
         EXPECT_NEAR(fuzzPdf(r, 1, vec3(inPlane(cosine))), cosine / std::numbers::pi, 1e-6);
     EXPECT_EQ(fuzzPdf(r, 0.5f, -r), 0.0f);
@@ -177,7 +177,7 @@ TEST(Metal, WithoutFuzzIsAMirror) {
 // A direction keeps its length over a long chain of reflections.
 TEST(Metal, MirrorsDoNotDrift) {
     Uniforms uniform(6);
-    vec3 w = kUp;
+    vec3 w = kNormal;
     for (int i = 0; i < 1000; ++i) w = mirrorDirection(w, sampleSphere(uniform.pair()));
     EXPECT_NEAR(length(w), 1.0f, 3e-7f);
 }
@@ -267,7 +267,7 @@ TEST(Dielectric, ChoosesByTheReflectance) {
             const vec3 wo(inPlane(cosine));
             Mean reflected;
             for (int i = 0; i < 1 << 15; ++i) {
-                const BsdfSample s = sampleBsdf(kFeatureAll, glass(1.5f, tint), kUp, front, wo, vec2(0), uniform());
+                const BsdfSample s = sampleBsdf(kFeatureAll, glass(1.5f, tint), kNormal, front, wo, vec2(0), uniform());
                 reflected.add(1 - double(s.transmitted));
                 ASSERT_EQ(s.delta, 1u);
                 ASSERT_EQ(s.weight, tint);
@@ -278,7 +278,7 @@ TEST(Dielectric, ChoosesByTheReflectance) {
         }
     }
     EXPECT_TRUE(isDelta(kFeatureAll, glass(1.5f)));
-    EXPECT_EQ(evalBsdf(kFeatureAll, glass(1.5f, tint), kUp, kUp, kUp), vec4(0));
+    EXPECT_EQ(evalBsdf(kFeatureAll, glass(1.5f, tint), kNormal, kNormal, kNormal), vec4(0));
 }
 
 // A plane-parallel slab leaves a direction as it is.
@@ -286,9 +286,9 @@ TEST(Dielectric, SlabIsParallel) {
     Uniforms uniform(11);
     for (int i = 0; i < 10000; ++i) {
         const vec3 d = -vec3(inPlane(0.02 + 0.98 * double(uniform()), double(uniform()) * 6));
-        const BsdfSample in = sampleBsdf(kFeatureAll, glass(1.5f), kUp, 1, -d, vec2(0), 0.999999f);
+        const BsdfSample in = sampleBsdf(kFeatureAll, glass(1.5f), kNormal, 1, -d, vec2(0), 0.999999f);
         if (in.transmitted == 0) continue;
-        const BsdfSample out = sampleBsdf(kFeatureAll, glass(1.5f), kUp, 0, -in.wi, vec2(0), 0.999999f);
+        const BsdfSample out = sampleBsdf(kFeatureAll, glass(1.5f), kNormal, 0, -in.wi, vec2(0), 0.999999f);
         if (out.transmitted == 0) continue;
         ASSERT_LE(length(out.wi - d) * std::abs(d.z), 2e-6f);
     }
@@ -299,9 +299,9 @@ TEST(Dielectric, SlabIsParallel) {
 TEST(Bsdf, WhatDoesNotScatterAbsorbs) {
     Bsdf emitter{};
     emitter.kind = kMaterialEmitter;
-    const BsdfSample s = sampleBsdf(kFeatureAll, emitter, kUp, 1, kUp, vec2(0.5f), 0.5f);
+    const BsdfSample s = sampleBsdf(kFeatureAll, emitter, kNormal, 1, kNormal, vec2(0.5f), 0.5f);
     EXPECT_EQ(s.weight, vec3(0));
-    EXPECT_EQ(evalBsdf(kFeatureAll, emitter, kUp, kUp, kUp), vec4(0));
+    EXPECT_EQ(evalBsdf(kFeatureAll, emitter, kNormal, kNormal, kNormal), vec4(0));
     EXPECT_FALSE(isDelta(kFeatureAll, emitter));
 }
 
@@ -316,11 +316,12 @@ TEST(Bsdf, SupersetOfFeaturesChangesNothing) {
         for (int i = 0; i < 100; ++i) {
             const vec2 u = uniform.pair();
             const vec3 wo(inPlane(0.1 + 0.9 * double(uniform())));
-            const BsdfSample a = sampleBsdf(features, material, kUp, 1, wo, u, u.x);
-            const BsdfSample b = sampleBsdf(kFeatureAll, material, kUp, 1, wo, u, u.x);
+            const BsdfSample a = sampleBsdf(features, material, kNormal, 1, wo, u, u.x);
+            const BsdfSample b = sampleBsdf(kFeatureAll, material, kNormal, 1, wo, u, u.x);
             ASSERT_EQ(a.wi, b.wi);
             ASSERT_EQ(a.pdf, b.pdf);
-            ASSERT_EQ(evalBsdf(features, material, kUp, wo, a.wi), evalBsdf(kFeatureAll, material, kUp, wo, a.wi));
+            ASSERT_EQ(evalBsdf(features, material, kNormal, wo, a.wi),
+                      evalBsdf(kFeatureAll, material, kNormal, wo, a.wi));
         }
     }
 }

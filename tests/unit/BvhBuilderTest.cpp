@@ -120,13 +120,14 @@ TEST(CpuAccel, TakesAtMostHundredBytesForATriangle) {
     const std::uint32_t side = 250;
     Random random(9);
     for (std::uint32_t i = 0; i < side * side; ++i) {
-        g.positions.push_back({static_cast<float>(i % side), random.uniform(), static_cast<float>(i / side)});
+        const std::uint32_t column = i % side, row = i / side;
+        g.positions.emplace_back(static_cast<float>(column), random.uniform(), static_cast<float>(row));
     }
     for (std::uint32_t y = 0; y + 1 < side; ++y) {
         for (std::uint32_t x = 0; x + 1 < side; ++x) {
             const std::uint32_t a = y * side + x;
-            g.triangles.push_back({a, a + 1, a + side});
-            g.triangles.push_back({a + 1, a + side + 1, a + side});
+            g.triangles.emplace_back(a, a + 1, a + side);
+            g.triangles.emplace_back(a + 1, a + side + 1, a + side);
         }
     }
     const std::size_t scene = g.positions.size() * sizeof(vec3) + g.triangles.size() * (sizeof(shared::uvec3) + 4);

@@ -23,6 +23,7 @@ SumOfCells sumOfCells(const CellIntegrals::Density& density, const std::vector<g
     std::vector<std::size_t> cells(std::size_t{kCellSide} * kCellSide);
     std::iota(cells.begin(), cells.end(), std::size_t{0});
     std::vector<Guide> guides;
+    guides.reserve(places.size());
     for (const glm::dvec2& place : places) guides.push_back({place, density(place)});
     const double solidAngle = 1.0 / static_cast<double>(cells.size());
     CellIntegrals integrals(density, {kCellSide, kCellSide, solidAngle, 4096, 3}, cells, guides,

@@ -88,7 +88,7 @@ TEST(CompileMemory, MeshesThatNobodyNeedsAreGivenBack) {
     remembering.memory = &memory;
     SceneDesc edited = sceneOfMeshes();
     compileScene(std::move(edited), remembering);
-    EXPECT_EQ(edited.objects, kept.objects);
+    EXPECT_EQ(edited.objects, kept.objects); // NOLINT(bugprone-use-after-move): that nothing was taken away
     // So is what another description shares.
     SceneDesc shared = kept;
     compileScene(std::move(shared));

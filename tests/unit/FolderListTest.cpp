@@ -41,7 +41,7 @@ TEST(FolderList, AFolderOfManyIsCut) {
     const test::TempFolder folder;
     for (std::size_t i = 0; i < FolderList::kMax; ++i) std::ofstream(folder.path() / std::to_string(i));
     EXPECT_FALSE(listFolder(folder.path(), {}).isCut);
-    std::ofstream(folder.path() / "one-more");
+    const std::ofstream more(folder.path() / "one-more");
     const FolderList list = listFolder(folder.path(), {});
     EXPECT_TRUE(list.isCut);
     EXPECT_EQ(list.entries.size(), FolderList::kMax);

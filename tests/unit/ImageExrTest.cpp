@@ -193,7 +193,7 @@ TEST(ImageExr, TextsOfOthers) {
     header.insert("ray-tracing", Imf::StringAttribute("of others"));
     header.insert("comment", Imf::StringAttribute("nothing of ours"));
     Imf::StdOSStream out;
-    Imf::OutputFile(out, header, 0); // without rows, as a program that was ended leaves it
+    { const Imf::OutputFile file(out, header, 0); } // without rows, as a program that was ended leaves it
     const std::string bytes = out.str();
     EXPECT_EQ(findExrText(std::as_bytes(std::span(bytes)), "a.exr"), "of others");
     EXPECT_THROW(decode(bytes), InputError);

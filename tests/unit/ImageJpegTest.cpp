@@ -49,7 +49,7 @@ std::string jpegFile(const Kind& kind) {
     }
     jpeg_finish_compress(&jpeg);
     jpeg_destroy_compress(&jpeg);
-    const std::string file(reinterpret_cast<char*>(memory), size);
+    std::string file(reinterpret_cast<char*>(memory), size);
     std::free(memory);
     return file;
 }
@@ -58,7 +58,7 @@ Texels texelsOf(const std::string& file) {
     return decodeTexels(std::as_bytes(std::span(file)), std::string("a.jpg"));
 }
 
-std::string errorOf(const std::string& file) {
+std::string errorOfFile(const std::string& file) {
     try {
         texelsOf(file);
     } catch (const InputError& e) {
@@ -97,8 +97,8 @@ TEST(ImageJpeg, ScansWithoutEndAreRefused) {
     const std::string begin = whole.substr(0, last), scan = whole.substr(last, whole.size() - 2 - last);
     std::string many = begin;
     for (int i = 0; i < 200; ++i) many += scan;
-    EXPECT_EQ(errorOf(many + "\xff\xd9"), "a.jpg: cannot be read as a JPEG image: more than 100 scans");
-    EXPECT_EQ(errorOf(begin + scan + scan + "\xff\xd9"), "");
+    EXPECT_EQ(errorOfFile(many + "\xff\xd9"), "a.jpg: cannot be read as a JPEG image: more than 100 scans");
+    EXPECT_EQ(errorOfFile(begin + scan + scan + "\xff\xd9"), "");
 }
 
 TEST(ImageJpeg, TheHeaderTellsHowManyTexelsThereAre) {

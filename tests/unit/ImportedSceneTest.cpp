@@ -58,14 +58,14 @@ class ImportedSceneTest : public testing::Test {
         gltf.json["extensionsUsed"] = {"KHR_lights_punctual"};
         gltf.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 5}}};
         gltf.addNode({{"translation", {0, 0, 5}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-        const fs::path file = folder_ / "models" / name;
+        fs::path file = folder_ / "models" / name;
         std::ofstream(file, std::ios::binary) << gltf.binary();
         return file;
     }
     // As it is saved in the folder above, and read again.
     std::string save(const SceneDesc& scene, const fs::path& source, const std::string& name = "saved.json") const {
         const fs::path file = folder_ / name;
-        const std::string text = app::sceneFileText(scene, source.string(), {}, file.string());
+        std::string text = app::sceneFileText(scene, source.string(), {}, file.string());
         std::ofstream(file, std::ios::binary) << text;
         return text;
     }

@@ -95,6 +95,7 @@ TEST(LightContribution, ScalesExactly) {
 TEST(LightContribution, BeatsChoiceByPower) {
     Uniforms uniform(11);
     std::vector<Light> lights;
+    lights.reserve(16);
     for (int i = 0; i < 16; ++i) lights.push_back(randomLight(uniform, 0.3));
     const RenderParams params = withMethod(kShapeAuto);
     const auto variance = [&](const std::function<double(const Light&)>& weight) {

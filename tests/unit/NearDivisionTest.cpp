@@ -99,7 +99,7 @@ TEST(NearDivision, OtherTrianglesStay) {
     mesh.positions.insert(mesh.positions.end(), {{0, 1, 2}, {1, 1, 2}, {0, 2, 2}});
     mesh.uvs.resize(7);
     mesh.colors.resize(7);
-    mesh.triangles.push_back({4, 5, 6});
+    mesh.triangles.emplace_back(4, 5, 6);
     const MeshData pieces = divideHugeTriangles(mesh, {}, true);
     EXPECT_EQ(std::count(pieces.triangles.begin(), pieces.triangles.end(), glm::uvec3(4, 5, 6)), 1);
 }

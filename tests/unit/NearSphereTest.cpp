@@ -194,7 +194,8 @@ TEST(NearSphere, WhatTouchesTheGroundShadowsItToTheContact) {
             const vec3 origin = shared::offsetOrigin(p.position, vec3(p.error), p.normal, p.normal);
             std::vector<Ray> rays;
             for (int i = 0; i < kStrata * kStrata; ++i) {
-                const shared::vec2 u((i % kStrata + 0.5f) / kStrata, (i / kStrata + 0.5f) / kStrata);
+                const int column = i % kStrata, row = i / kStrata;
+                const shared::vec2 u((column + 0.5f) / kStrata, (row + 0.5f) / kStrata);
                 rays.push_back({origin, shared::toWorld(frame, shared::sampleCosineHemisphere(u)), 0.0f});
             }
             const std::vector<float> far(rays.size(), 1e6f);

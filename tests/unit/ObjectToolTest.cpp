@@ -29,10 +29,10 @@ scene::CameraDesc camera() {
 }
 
 constexpr std::uint32_t kWidth = 640, kHeight = 360;
-constexpr double kAspect = 640.0 / 360;
+constexpr double kViewAspect = 640.0 / 360;
 
 TEST(ViewProjection, IsTheCameraOfTheEngines) {
-    const ViewProjection view(camera(), kAspect);
+    const ViewProjection view(camera(), kViewAspect);
     const shared::Camera record = scene::makeCamera(camera(), kWidth, kHeight, glm::dvec3(0));
     for (const glm::uvec2 pixel : {glm::uvec2(0, 0), glm::uvec2(639, 0), glm::uvec2(100, 300), glm::uvec2(320, 180)}) {
         const shared::Ray ray = shared::generateCameraRay(shared::kFeatureNone, record, pixel, {kWidth, kHeight},
@@ -48,7 +48,7 @@ TEST(ViewProjection, IsTheCameraOfTheEngines) {
 }
 
 TEST(ViewProjection, LinesAreCutWhereTheyComeFromBehind) {
-    const ViewProjection view(camera(), kAspect);
+    const ViewProjection view(camera(), kViewAspect);
     const glm::dvec3 ahead = camera().lookAt, behind = 2.0 * camera().lookFrom - camera().lookAt + glm::dvec3(1, 0, 0);
     const auto whole = view.line(ahead, ahead + glm::dvec3(0.1, 0, 0));
     ASSERT_TRUE(whole);
@@ -88,7 +88,7 @@ glm::dmat3 turnedAxes() {
 
 // What the pointer had stays under it; along an axis as near as that allows.
 TEST(ObjectTool, MovesWithThePointer) {
-    const ViewProjection view(camera(), kAspect);
+    const ViewProjection view(camera(), kViewAspect);
     const glm::dvec3 pivot(0.3, 0.2, -0.5);
     const glm::dvec2 start = seenAt(view, pivot), end = start + glm::dvec2(0.13, -0.07);
     for (const glm::dmat3& axes : {glm::dmat3(1.0), turnedAxes()}) {
@@ -130,7 +130,7 @@ TEST(ObjectTool, TurnsWithThePointer) {
 
 // What the pointer has of a ring stays under it, however that is seen; of one seen from its edge roughly.
 TEST(ObjectTool, RingsFollowThePointer) {
-    const ViewProjection view(camera(), kAspect);
+    const ViewProjection view(camera(), kViewAspect);
     const glm::dvec3 pivot(0.3, 0.2, -0.5), toEye = glm::normalize(view.eye() - pivot);
     int rings = 0;
     for (const glm::dmat3& axes : {glm::dmat3(1.0), turnedAxes()})
@@ -155,7 +155,7 @@ TEST(ObjectTool, RingsFollowThePointer) {
 }
 
 TEST(ObjectTool, ScalesByTheDistanceFromTheMiddle) {
-    const ViewProjection view(camera(), kAspect);
+    const ViewProjection view(camera(), kViewAspect);
     const glm::dvec3 pivot(0.3, 0.2, -0.5);
     const glm::dvec2 middle = seenAt(view, pivot), start = middle + glm::dvec2(0.1, 0.05);
     const glm::dvec2 away = middle + 2.5 * (start - middle);
@@ -170,7 +170,7 @@ TEST(ObjectTool, ScalesByTheDistanceFromTheMiddle) {
 
 // An arm's end stays under the pointer, and an object of other axes is scaled along those.
 TEST(ObjectTool, ArmsScaleAlongTheirAxes) {
-    const ViewProjection view(camera(), kAspect);
+    const ViewProjection view(camera(), kViewAspect);
     const glm::dvec3 pivot(0.3, 0.2, -0.5);
     const glm::dmat3 axes = turnedAxes();
     for (int axis = 0; axis < 3; ++axis) {
@@ -189,7 +189,7 @@ TEST(ObjectTool, ArmsScaleAlongTheirAxes) {
 }
 
 TEST(ObjectTool, SnapsToWholeSteps) {
-    const ViewProjection view(camera(), kAspect);
+    const ViewProjection view(camera(), kViewAspect);
     const glm::dvec3 pivot(0.3, 0.2, -0.5);
     const glm::dvec2 start = seenAt(view, pivot);
     ObjectTool move(ObjectTool::Kind::Move, {pivot}, start);

@@ -38,7 +38,7 @@ class OptionsFixture : public testing::Test {
     }
     // Of a headless render.
     static Options render(std::vector<std::string> arguments) {
-        arguments.push_back("--headless");
+        arguments.emplace_back("--headless");
         return read(std::move(arguments)).value();
     }
     static Options sized(std::vector<std::string> arguments, double sceneAspect = 1) {
@@ -48,7 +48,7 @@ class OptionsFixture : public testing::Test {
     }
     // The message of the usage error, which is one line.
     static std::string error(std::vector<std::string> arguments) {
-        arguments.push_back("--headless");
+        arguments.emplace_back("--headless");
         try {
             Options options = read(std::move(arguments)).value();
             settleImageSize(options, "scene", 1);

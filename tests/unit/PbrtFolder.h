@@ -19,7 +19,7 @@ inline scene::SceneDesc pbrtScene(const std::string& name) {
 class PbrtFolder {
   public:
     std::filesystem::path write(const std::string& name, const std::string& text) const {
-        const std::filesystem::path path = folder_ / name;
+        std::filesystem::path path = folder_ / name;
         std::filesystem::create_directories(path.parent_path());
         std::ofstream(path, std::ios::binary) << text;
         return path;

@@ -21,7 +21,6 @@ using test::meshOf;
 using test::pbrtScene;
 using test::placed;
 using test::shapeOf;
-constexpr double kPi = std::numbers::pi;
 
 void expectNear(const dvec3& value, const dvec3& truth, double tolerance = 1e-9) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(value[c], truth[c], tolerance) << c;
@@ -59,11 +58,11 @@ TEST(PbrtScenes, FurnaceAndLamps) {
 
 TEST(PbrtScenes, Power) {
     const SceneDesc scene = pbrtScene("power");
-    EXPECT_NEAR(std::get<PointLightDesc>(scene.objects[0].shape).intensity.x, 100 / (4 * kPi), 1e-9);
-    EXPECT_NEAR(materialOf<DiskDesc>(scene, 1).emission.x, 100 / (kPi * kPi), 1e-9);
-    EXPECT_NEAR(materialOf<DiskDesc>(scene, 2).emission.x, 50 / (kPi * kPi), 1e-9);
+    EXPECT_NEAR(std::get<PointLightDesc>(scene.objects[0].shape).intensity.x, 100 / (4 * std::numbers::pi), 1e-9);
+    EXPECT_NEAR(materialOf<DiskDesc>(scene, 1).emission.x, 100 / (std::numbers::pi * std::numbers::pi), 1e-9);
+    EXPECT_NEAR(materialOf<DiskDesc>(scene, 2).emission.x, 50 / (std::numbers::pi * std::numbers::pi), 1e-9);
     EXPECT_EQ(materialOf<DiskDesc>(scene, 2).sides, Sides::Both);
-    EXPECT_NEAR(materialOf<MeshDesc>(scene, 3).emission.x, 200 / kPi, 1e-9);
+    EXPECT_NEAR(materialOf<MeshDesc>(scene, 3).emission.x, 200 / std::numbers::pi, 1e-9);
 }
 
 TEST(PbrtScenes, LightsWithoutExtent) {
@@ -266,14 +265,15 @@ glm::dvec2 seenAt(const SceneDesc& scene, const dvec3& point) {
 
 TEST(PbrtScenes, PicturesAreAsPbrtDrawsThem) {
     const SceneDesc left = pbrtScene("handedness"), right = pbrtScene("right-handed");
-    const double expected = 1.5 / (5 * std::tan(kPi / 6));
+    const double expected = 1.5 / (5 * std::tan(std::numbers::pi / 6));
     EXPECT_NEAR(seenAt(left, placed(left.objects, 0).toWorld.offset).x, expected, 1e-5);
     EXPECT_NEAR(seenAt(right, placed(right.objects, 0).toWorld.offset).x, -expected, 1e-5);
     const SceneDesc portrait = pbrtScene("portrait");
-    EXPECT_NEAR(portrait.camera.verticalFov, 2 * 180 / kPi * std::atan(2 * std::tan(kPi / 6)), 1e-9);
+    EXPECT_NEAR(portrait.camera.verticalFov, 2 * 180 / std::numbers::pi * std::atan(2 * std::tan(std::numbers::pi / 6)),
+                1e-9);
     EXPECT_EQ(portrait.render.aspect, 0.5);
     EXPECT_EQ(portrait.camera.focusDistance, 5);
-    EXPECT_NEAR(5 * std::tan(portrait.camera.defocusAngle / 2 * kPi / 180), 0.25, 1e-12);
+    EXPECT_NEAR(5 * std::tan(portrait.camera.defocusAngle / 2 * std::numbers::pi / 180), 0.25, 1e-12);
 }
 
 TEST(PbrtScenes, Media) {

@@ -289,7 +289,8 @@ TEST(ProjectedPolygon, KeepsStrata) {
         for (int i = 0; i < kSide * kSide; ++i) {
             const vec2 u = uniform.pair();
             a += value(u);
-            b += value((u + vec2(static_cast<float>(i % kSide), static_cast<float>(i / kSide))) / float(kSide));
+            const int column = i % kSide, row = i / kSide;
+            b += value((u + vec2(static_cast<float>(column), static_cast<float>(row))) / float(kSide));
         }
         random.add(a), strata.add(b);
     }

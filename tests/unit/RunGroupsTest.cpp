@@ -79,6 +79,7 @@ TEST(RunGroups, EnginesAreToldApartWhereRepeatedRunsAre) {
     };
     const auto compare = [&runs] {
         std::vector<RunRow> rows;
+        rows.reserve(runs.size());
         for (const RunRecord& r : runs) rows.push_back({&r, 0, {}});
         return compareRepeats(pairOf(runs.front(), runs.back()), rows);
     };

@@ -138,6 +138,7 @@ TEST_F(RunHistoryTest, WithoutAFileItLastsAsLongAsTheProgram) {
 TEST_F(RunHistoryTest, ConcurrentAppendsLoseNothing) {
     constexpr int kThreads = 4, kEach = 25;
     std::vector<std::thread> threads;
+    threads.reserve(kThreads);
     for (int t = 0; t < kThreads; ++t)
         threads.emplace_back([this, t] {
             RunHistory history(file());

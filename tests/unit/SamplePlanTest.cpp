@@ -22,7 +22,7 @@ using test::Mean;
 // What a sample of a pixel brings, from a number that is uniform in [0, 1).
 using Radiance = std::function<float(std::uint32_t x, std::uint32_t y, double u)>;
 
-constexpr std::uint32_t kWidth = 11, kHeight = 9; // tiles at the edges are cut
+constexpr std::uint32_t kPlanWidth = 11, kPlanHeight = 9; // tiles at the edges are cut
 
 struct Picture {
     const char* name;
@@ -54,7 +54,7 @@ const Picture kPictures[] = {
 class Renderer {
   public:
     Renderer(const Radiance& radiance, std::uint32_t seed, std::uint32_t spp, std::uint32_t replicates = 2,
-             std::uint32_t width = kWidth, std::uint32_t height = kHeight)
+             std::uint32_t width = kPlanWidth, std::uint32_t height = kPlanHeight)
         : radiance_(radiance), seed_(seed), spp_(spp) {
         film = Film({width, height, replicates, false, pilotSamples(spp) > 0});
         film.reserveOpenBlocks();
@@ -126,15 +126,16 @@ struct Regions {
     Mean all, left, lit; // means of the picture, of its left half, and of one pixel
     void add(const Image& picture, const Picture& of) {
         double sum = 0, left_ = 0;
-        for (std::uint32_t y = 0; y < kHeight; ++y)
-            for (std::uint32_t x = 0; x < kWidth; ++x) {
+        for (std::uint32_t y = 0; y < kPlanHeight; ++y)
+            for (std::uint32_t x = 0; x < kPlanWidth; ++x) {
                 const double error = *picture.pixel(x, y) - of.expected(x, y);
                 sum += error;
-                if (x < kWidth / 2) left_ += error;
+                if (x < kPlanWidth / 2) left_ += error;
                 if (isLit(x, y)) lit.add(error);
             }
-        all.add(sum / (kWidth * kHeight));
-        left.add(left_ / (kWidth / 2 * kHeight));
+        constexpr std::uint32_t kAll = kPlanWidth * kPlanHeight, kLeft = kPlanWidth / 2 * kPlanHeight;
+        all.add(sum / kAll);
+        left.add(left_ / kLeft);
     }
 };
 
@@ -198,7 +199,7 @@ TEST(SamplePlan, NoiseGetsSamplesAndNothingDoesNot) {
 TEST(SamplePlan, VarianceThatIsNoNumberCostsNoMoreThanTheLimit) {
     const Radiance huge = [](std::uint32_t x, std::uint32_t y, double) { return isLit(x, y) ? 1e30f : 1.0f; };
     const Film film = Renderer(huge, 0, 64).render();
-    EXPECT_EQ(film.totalSamples(), 64u * kWidth * kHeight);
+    EXPECT_EQ(film.totalSamples(), 64u * kPlanWidth * kPlanHeight);
     for (const float count : film.sampleCounts().data) EXPECT_LE(count, 16 * 64 + 2);
 }
 

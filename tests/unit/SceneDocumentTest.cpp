@@ -245,6 +245,7 @@ TEST(SceneDocument, TwoStepsCanBecomeOne) {
     for (std::size_t i = 0; i < paths.size(); ++i)
         EXPECT_EQ(*findObject(document.scene(), copies[i]), *findObject(first, paths[i])) << textOf(paths[i]);
     std::vector<SceneEdit> moves;
+    moves.reserve(copies.size());
     for (const ObjectPath& copy : copies) moves.push_back(moved(document.scene(), copy, {Translate{{1, 0, 0}}}));
     document.perform("Move", moves);
     const SceneDesc last = document.scene();

@@ -24,6 +24,7 @@ class SceneFileWatchTest : public InteractiveFixture {
     }
     static std::vector<WatchedFile> asTheyAre(const std::vector<std::string>& files) {
         std::vector<WatchedFile> watched;
+        watched.reserve(files.size());
         for (const std::string& file : files) watched.push_back({file, {markOf(file)}});
         return watched;
     }

@@ -78,11 +78,11 @@ SceneDesc parse(const std::string& text) {
     return parseScene(text, "test.json", {});
 }
 
-std::string errorOf(const std::string& text) {
+std::string errorOfScene(const std::string& text) {
     try {
         parse(text);
     } catch (const InputError& error) {
-        const std::string message = error.what();
+        std::string message = error.what();
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
         EXPECT_EQ(message.rfind("test.json:", 0), 0u) << message;
         return message;
@@ -116,7 +116,8 @@ TEST(SceneJson, BackgroundImagesSurviveARoundTrip) {
     EXPECT_TRUE(schema().accepts(Json::parse(toJson(scene))));
     document["background"]["rotation"] = "east";
     EXPECT_FALSE(schema().accepts(document));
-    EXPECT_NE(errorOf(document.dump()).find("/background/rotation: \"east\": must be a number"), std::string::npos);
+    EXPECT_NE(errorOfScene(document.dump()).find("/background/rotation: \"east\": must be a number"),
+              std::string::npos);
 }
 
 TEST(SceneJson, TheSchemaKnowsSunAndSky) {
@@ -152,14 +153,14 @@ TEST(SceneJson, BuiltinScenesObeyTheSchema) {
         EXPECT_TRUE(schema().accepts(Json::parse(toJson(scene.make(std::min(scene.defaultCount, 50u)))))) << scene.id;
 }
 
-struct Mistake {
+struct SceneMistake {
     const char* place;        // of the value to set, a JSON pointer
     const char* value;        // JSON
     const char* message;      // what the error must contain
     bool isStructural = true; // the schema finds it too
 };
 
-const Mistake kMistakes[] = {
+const SceneMistake kMistakes[] = {
     // wrong types
     {"", "[]", "must be an object with $schema, version"},
     {"/title", "3", "/title: 3: must be a string"},
@@ -246,11 +247,11 @@ const Mistake kMistakes[] = {
 };
 
 TEST(SceneJson, EveryMistakeIsNamed) {
-    for (const Mistake& mistake : kMistakes) {
+    for (const SceneMistake& mistake : kMistakes) {
         Json document = everything();
         document[Json::json_pointer(mistake.place)] = Json::parse(mistake.value);
-        EXPECT_NE(errorOf(document.dump()).find(mistake.message), std::string::npos)
-            << mistake.place << " = " << mistake.value << " gave: " << errorOf(document.dump());
+        EXPECT_NE(errorOfScene(document.dump()).find(mistake.message), std::string::npos)
+            << mistake.place << " = " << mistake.value << " gave: " << errorOfScene(document.dump());
         EXPECT_EQ(schema().accepts(document), !mistake.isStructural) << mistake.place << " = " << mistake.value;
     }
 }
@@ -288,34 +289,36 @@ TEST(SceneJson, NoKindOfObjectMakesTheOthersLarge) {
 }
 
 TEST(SceneJson, SyntaxErrorsHaveLineAndColumn) {
-    EXPECT_EQ(errorOf("{\n  \"objects\": [,]\n}").rfind("test.json:2:15: ", 0), 0u)
-        << errorOf("{\n  \"objects\": [,]\n}");
-    EXPECT_EQ(errorOf("").rfind("test.json:1:1: ", 0), 0u) << errorOf("");
-    EXPECT_EQ(errorOf("{\"objects\": [NaN]}").rfind("test.json:1:14: ", 0), 0u) << errorOf("{\"objects\": [NaN]}");
-    EXPECT_EQ(errorOf("{\n\"objects\": [1e999]}"), "test.json:2:18: number overflow parsing '1e999'");
-    EXPECT_EQ(errorOf("{\"objects\": [],\n\"objects\": []}"),
+    EXPECT_EQ(errorOfScene("{\n  \"objects\": [,]\n}").rfind("test.json:2:15: ", 0), 0u)
+        << errorOfScene("{\n  \"objects\": [,]\n}");
+    EXPECT_EQ(errorOfScene("").rfind("test.json:1:1: ", 0), 0u) << errorOfScene("");
+    EXPECT_EQ(errorOfScene("{\"objects\": [NaN]}").rfind("test.json:1:14: ", 0), 0u)
+        << errorOfScene("{\"objects\": [NaN]}");
+    EXPECT_EQ(errorOfScene("{\n\"objects\": [1e999]}"), "test.json:2:18: number overflow parsing '1e999'");
+    EXPECT_EQ(errorOfScene("{\"objects\": [],\n\"objects\": []}"),
               "test.json:2:9: key \"objects\" appears twice in one object");
     // Objects are parsed one by one.
-    EXPECT_EQ(errorOf("{\"objects\": [\n{\"a\": [1], \"a\": 2}]}"),
+    EXPECT_EQ(errorOfScene("{\"objects\": [\n{\"a\": [1], \"a\": 2}]}"),
               "test.json:2:14: key \"a\" appears twice in one object");
-    EXPECT_EQ(errorOf("{\"objects\": [\n{\"type\": tru}]}").rfind("test.json:2:13: ", 0), 0u);
-    EXPECT_EQ(errorOf("{\"objects\": [{}, {\"type\": \"}]}").rfind("test.json:1:31: ", 0), 0u)
-        << errorOf("{\"objects\": [{}, {\"type\": \"}]}");
+    EXPECT_EQ(errorOfScene("{\"objects\": [\n{\"type\": tru}]}").rfind("test.json:2:13: ", 0), 0u);
+    EXPECT_EQ(errorOfScene("{\"objects\": [{}, {\"type\": \"}]}").rfind("test.json:1:31: ", 0), 0u)
+        << errorOfScene("{\"objects\": [{}, {\"type\": \"}]}");
     // What follows them stands where it is in the file.
-    EXPECT_EQ(errorOf("{\"objects\": [{\"type\": 1},\n{\"type\": 2}], \"a\": tru}").rfind("test.json:2:23: ", 0), 0u)
-        << errorOf("{\"objects\": [{\"type\": 1},\n{\"type\": 2}], \"a\": tru}");
-    EXPECT_EQ(errorOf("{\"objects\": [{\"type\": 1},\n{}],\n\"objects\": []}"),
+    EXPECT_EQ(errorOfScene("{\"objects\": [{\"type\": 1},\n{\"type\": 2}], \"a\": tru}").rfind("test.json:2:23: ", 0),
+              0u)
+        << errorOfScene("{\"objects\": [{\"type\": 1},\n{\"type\": 2}], \"a\": tru}");
+    EXPECT_EQ(errorOfScene("{\"objects\": [{\"type\": 1},\n{}],\n\"objects\": []}"),
               "test.json:3:9: key \"objects\" appears twice in one object");
-    EXPECT_EQ(errorOf("{\"objects\": [{\"type\": " + std::string(300, '[') + "]}]}").find("test.json:1:"), 0u);
-    EXPECT_EQ(errorOf(std::string(300, '[')), "test.json:1:258: values are nested deeper than 256");
-    EXPECT_NE(errorOf(std::string("\0\0\0\0", 4)), "no error");
-    EXPECT_NE(errorOf("{\"objects\": [], \"title\": \"\xff\xfe\"}"), "no error");
+    EXPECT_EQ(errorOfScene("{\"objects\": [{\"type\": " + std::string(300, '[') + "]}]}").find("test.json:1:"), 0u);
+    EXPECT_EQ(errorOfScene(std::string(300, '[')), "test.json:1:258: values are nested deeper than 256");
+    EXPECT_NE(errorOfScene(std::string("\0\0\0\0", 4)), "no error");
+    EXPECT_NE(errorOfScene("{\"objects\": [], \"title\": \"\xff\xfe\"}"), "no error");
 }
 
 TEST(SceneJson, EveryTruncationIsAnError) {
     const std::string text = everything().dump();
     for (std::size_t length = 0; length < text.size(); length += 3)
-        EXPECT_NE(errorOf(text.substr(0, length)), "no error") << length;
+        EXPECT_NE(errorOfScene(text.substr(0, length)), "no error") << length;
 }
 
 // Bytes changed at random: an error or a scene, never a crash.
@@ -325,7 +328,7 @@ TEST(SceneJson, DamagedFilesDoNoHarm) {
     for (int i = 0; i < 3000; ++i) {
         std::string damaged = text;
         for (int k = 0; k < 3; ++k) damaged[random() % damaged.size()] = static_cast<char>(random());
-        errorOf(damaged);
+        errorOfScene(damaged);
     }
 }
 
@@ -333,7 +336,7 @@ TEST(SceneJson, DeepNestingIsAnErrorNotACrash) {
     for (const char* open : {"[", "{\"a\":"}) {
         std::string text = "{\"objects\": ";
         for (int i = 0; i < 1000000; ++i) text += open;
-        EXPECT_NE(errorOf(text).find("nested deeper than 256"), std::string::npos);
+        EXPECT_NE(errorOfScene(text).find("nested deeper than 256"), std::string::npos);
     }
 }
 

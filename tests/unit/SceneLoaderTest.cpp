@@ -48,7 +48,7 @@ TEST(SceneLoader, TheLastRequestIsTheOneThatCounts) {
     std::vector<std::string> loaded;
     std::atomic<bool> failed{false};
     {
-        SceneLoader loader([&](LoadedScene result) {
+        SceneLoader loader([&](const LoadedScene& result) {
             const std::scoped_lock lock(mutex);
             loaded.push_back(result.request.source);
             failed = failed || result.failure != nullptr;
@@ -66,7 +66,7 @@ TEST(SceneLoader, TheLastRequestIsTheOneThatCounts) {
 
 TEST(SceneLoader, WhatIsGivenUpIsNotHandedOverAndWasNeverRequested) {
     std::atomic<int> count{0};
-    SceneLoader loader([&](LoadedScene) { ++count; });
+    SceneLoader loader([&](const LoadedScene&) { ++count; });
     loader.request({"one-weekend-default"});
     while (loader.busyWith()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     loader.request({"many-lights:1000000"}); // seconds

@@ -73,6 +73,7 @@ TEST(MeshOrder, KeepsTheTrianglesAndBringsNeighboursTogether) {
     std::iota(order.begin(), order.end(), 0u);
     orderAlongCurve(positions, {triangles}, order);
     std::vector<glm::uvec3> ordered;
+    ordered.reserve(order.size());
     for (const std::uint32_t i : order) ordered.push_back(triangles[i]);
     triangles = ordered;
     EXPECT_LT(step(), 0.1);
@@ -126,6 +127,7 @@ TEST(Polygon, ConcaveOnesAreCoveredOnce) {
     EXPECT_NEAR(areaOf(arrow, cutPolygon(arrow), true), 16 - 6, 1e-12);
     for (int turns = 0; turns < 3; ++turns) { // whatever it faces
         std::vector<glm::dvec3> turned;
+        turned.reserve(arrow.size());
         for (const glm::dvec3& p : arrow) turned.emplace_back(p[turns], p[(turns + 1) % 3], p[(turns + 2) % 3]);
         for (int side = 0; side < 2; ++side, std::reverse(turned.begin(), turned.end())) {
             glm::dvec3 sum(0), whole(0);
@@ -170,6 +172,7 @@ TEST(Polygon, HugeOnesAreCoveredOnce) {
     // A coast: radii at random.
     std::mt19937 random(1);
     std::vector<double> radii;
+    radii.reserve(kCorners);
     for (int i = 0; i < kCorners; ++i) radii.push_back(std::uniform_real_distribution<double>(0.5, 1)(random));
     const auto coast = around([&](int i) { return radii[static_cast<std::size_t>(i)]; });
     double area = 0;
@@ -182,6 +185,7 @@ TEST(Polygon, HugeOnesAreCoveredOnce) {
         return glm::dvec3(r * std::cos(angle), r * std::sin(angle), 2);
     };
     constexpr int kSteps = 20'000;
+    spiral.reserve(kSteps);
     for (int i = 0; i < kSteps; ++i) spiral.push_back(at(i, 0));
     for (int i = kSteps; i-- > 0;) spiral.push_back(at(i, 0.1));
     double strip = 0;

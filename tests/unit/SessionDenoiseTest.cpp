@@ -42,7 +42,8 @@ TEST_F(SessionDenoise, WritesBesideTheRawPicture) {
     EXPECT_EQ(test::bytesOfFile(path("a.pfm")), test::bytesOfFile(path("raw.pfm")));
     EXPECT_LT(meanSquareFromHalf(path("a.denoised.pfm")), 0.25 * meanSquareFromHalf(path("a.pfm")));
     EXPECT_TRUE(fs::exists(path("a.denoised-error.pfm")));
-    const nlohmann::json stats = statistics(), denoised = stats["denoised"];
+    const nlohmann::json stats = statistics();
+    const nlohmann::json& denoised = stats["denoised"];
     EXPECT_EQ(stats["settings"]["replicates"], 2);
     EXPECT_LT(denoised["estimated_relmse"].get<double>(), stats["estimated_relmse"].get<double>());
     EXPECT_GT(denoised["seconds"].get<double>(), 0.0);

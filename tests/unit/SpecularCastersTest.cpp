@@ -23,7 +23,7 @@ SphereSetDesc beads(const std::string& material) {
     SphereSetDesc set;
     set.radius = 0.01;
     set.material = material;
-    for (int i = 0; i < 64; ++i) set.centers.push_back({0.1 * i, -1, 0});
+    for (int i = 0; i < 64; ++i) set.centers.emplace_back(0.1 * i, -1, 0);
     return set;
 }
 
@@ -124,8 +124,10 @@ TEST(SpecularCasters, OfManyInstancesAreFew) {
     add(scene, sphere({0, 5, 0}, 0.02, "glass"));
     const auto listed = [&scene](const std::string& prototype, int count) {
         SceneDesc filled = scene;
-        for (int i = 0; i < count; ++i)
-            add(filled, instanceOf(prototype, {Translate{{0.03 * (i % 100), 0, 0.03 * (i / 100)}}}));
+        for (int i = 0; i < count; ++i) {
+            const int column = i % 100, row = i / 100;
+            add(filled, instanceOf(prototype, {Translate{{0.03 * column, 0, 0.03 * row}}}));
+        }
         return test::connectedThroughAll(*compileScene(filled))->specularCasters;
     };
     const std::vector<shared::SpecularCaster> few = listed("few", 1000);
@@ -181,7 +183,7 @@ TEST(SpecularCasters, OfManyEqualLightsAreNone) {
         SceneDesc scene = withMaterials();
         add(scene, sphere({0, 0, 0}, 1, "glass"));
         SphereSetDesc lamps{{}, 0.001, "lamp"};
-        for (int i = 0; i < lights; ++i) lamps.centers.push_back({0.01 * i, 20, 0});
+        for (int i = 0; i < lights; ++i) lamps.centers.emplace_back(0.01 * i, 20, 0);
         add(scene, lamps);
         return test::connectedThroughAll(*compileScene(scene))->specularCasters.size();
     };
@@ -196,7 +198,10 @@ TEST(SpecularCasters, OfManyUnderManyLightsAreNone) {
         add(scene, sphere({0, 5, 0}, 1, "glass"));
         add(scene, SphereSetDesc{std::vector<glm::dvec3>(spheres - 1, glm::dvec3(0)), 0.01, "glass"});
         SphereSetDesc lamps{{}, 0.001, "lamp"};
-        for (int i = 0; i < 1 << 15; ++i) lamps.centers.push_back({0.1 * (i % 128), 20, 0.1 * (i / 128)});
+        for (int i = 0; i < 1 << 15; ++i) {
+            const int column = i % 128, row = i / 128;
+            lamps.centers.emplace_back(0.1 * column, 20, 0.1 * row);
+        }
         add(scene, lamps);
         add(scene, SphereSetDesc{{{0, 6.2, 0}}, 0.1, "lamp"}); // brighter than all of them on the first
         return test::connectedThroughAll(*compileScene(scene))->specularCasters.size();

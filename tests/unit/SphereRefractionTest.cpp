@@ -27,7 +27,7 @@ using test::Traced;
 using test::traceThrough;
 using test::Uniforms;
 
-constexpr double kPiD = test::kPiD;
+using test::kPiD;
 
 double turn(double i, uint crossings, double eta, double nearX, double nearY) {
     const double s = std::sin(i);

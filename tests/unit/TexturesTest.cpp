@@ -33,7 +33,7 @@ TextureScene perlinScene(uint tables) {
     for (uint t = 0; t < tables; ++t) {
         for (uint i = 0; i < kPerlinSize; ++i) {
             const dvec3 v(uniform.between(-1, 1), uniform.between(-1, 1), uniform.between(-1, 1));
-            scene.perlinGradients.push_back(vec3(glm::normalize(v)));
+            scene.perlinGradients.emplace_back(glm::normalize(v));
         }
         for (int axis = 0; axis < 3; ++axis) {
             std::array<uint, kPerlinSize> p{};

@@ -17,7 +17,7 @@ namespace {
 
 using Paths = std::vector<ObjectPath>;
 
-ObjectPath at(std::vector<std::uint32_t> indices) {
+ObjectPath pathAt(std::vector<std::uint32_t> indices) {
     return {"", std::move(indices)};
 }
 
@@ -30,7 +30,7 @@ SphereDesc round(double x, const std::string& material) {
 }
 
 // Of every kind of object one, each at a place of its own.
-SceneDesc allKinds() {
+SceneDesc sceneOfAllKinds() {
     SceneDesc scene = withMaterials();
     scene.textures["map"] = CheckerTexture{};
     scene.materials["checked"] = lambertian(1, 1, 1);
@@ -82,10 +82,10 @@ std::uint64_t hashOf(const SceneDesc& scene) {
 
 // As if it were not there, in each array of the compiled scene.
 TEST(Visibility, WhatIsHiddenCostsNothing) {
-    const SceneDesc scene = allKinds();
+    const SceneDesc scene = sceneOfAllKinds();
     Paths paths;
-    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) paths.push_back(at({i}));
-    paths.insert(paths.end(), {at({11, 0}), at({11, 1}), at({11, 2}), at({11, 2, 0})});
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) paths.push_back(pathAt({i}));
+    paths.insert(paths.end(), {pathAt({11, 0}), pathAt({11, 1}), pathAt({11, 2}), pathAt({11, 2, 0})});
     for (const ObjectPath& path : paths) {
         SceneDocument hiding(scene), removing(scene);
         hiding.perform("Hide", hidden(scene, {path}, true));
@@ -100,7 +100,7 @@ TEST(Visibility, WhatIsHiddenCostsNothing) {
 
 // What is in a prototype is hidden in each of its instances.
 TEST(Visibility, PrototypesShowWhatIsShownOfThem) {
-    SceneDesc scene = allKinds(), without = scene;
+    SceneDesc scene = sceneOfAllKinds(), without = scene;
     scene.prototypes["cloud"][1].hidden = true;
     without.prototypes["cloud"].pop_back();
     EXPECT_EQ(hashOf(scene), hashOf(without));
@@ -108,11 +108,12 @@ TEST(Visibility, PrototypesShowWhatIsShownOfThem) {
 
 // The numbers of objects, by which a picture's primitives are named, are those of all of them.
 TEST(Visibility, ObjectsKeepTheirNumbers) {
-    const SceneDesc scene = allKinds();
+    const SceneDesc scene = sceneOfAllKinds();
     SceneDocument document(scene);
-    document.perform("Hide", hidden(scene, {at({0}), at({11, 1})}, true));
+    document.perform("Hide", hidden(scene, {pathAt({0}), pathAt({11, 1})}, true));
     const auto before = compileScene(scene), after = compileScene(document.scene());
-    const Paths paths = {at({0}), at({2}), at({11, 0}), at({11, 1}), at({11, 2}), at({12}), at({13})};
+    const Paths paths = {pathAt({0}),     pathAt({2}),  pathAt({11, 0}), pathAt({11, 1}),
+                         pathAt({11, 2}), pathAt({12}), pathAt({13})};
     const auto ranges = leavesOf(scene, paths);
     const auto all = boundsOf(*before, ranges), shown = boundsOf(*after, ranges);
     for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -127,7 +128,7 @@ TEST(Visibility, ObjectsKeepTheirNumbers) {
 TEST(Visibility, FilesKeepWhatIsHidden) {
     std::ifstream in(std::filesystem::path(RT_SOURCE_DIR) / "Assets" / "scene.schema.json");
     const test::JsonSchema schema(nlohmann::json::parse(in));
-    SceneDesc scene = allKinds();
+    SceneDesc scene = sceneOfAllKinds();
     for (ObjectDesc& object : scene.objects) object.hidden = true;
     std::get<GroupDesc>(scene.objects[11].shape).objects[1].hidden = true;
     const std::string text = toJson(scene);
@@ -135,7 +136,7 @@ TEST(Visibility, FilesKeepWhatIsHidden) {
     EXPECT_TRUE(schema.accepts(json));
     for (const nlohmann::json& object : json["objects"]) EXPECT_EQ(object["hidden"], true) << object["type"];
     EXPECT_EQ(parseScene(text, "", ".").objects, scene.objects);
-    EXPECT_EQ(toJson(allKinds()).find("hidden"), std::string::npos) << "what is shown is not said to be";
+    EXPECT_EQ(toJson(sceneOfAllKinds()).find("hidden"), std::string::npos) << "what is shown is not said to be";
     try {
         parseScene(
             R"({"objects": [{"type": "point_light", "position": [0, 0, 0], "intensity": [1, 1, 1], "hidden": 1}]})",
@@ -148,17 +149,19 @@ TEST(Visibility, FilesKeepWhatIsHidden) {
 }
 
 TEST(Visibility, SoloLeavesTheLights) {
-    const SceneDesc scene = allKinds();
+    const SceneDesc scene = sceneOfAllKinds();
     SceneDocument document(scene);
-    document.perform("Hide", hidden(scene, {at({11}), at({11, 0})}, true));
-    document.perform("Solo", soloed(document.scene(), {at({3}), at({11, 0})}));
-    const auto isHidden = [&](std::vector<std::uint32_t> path) { return !isShown(document.scene(), at(path)); };
+    document.perform("Hide", hidden(scene, {pathAt({11}), pathAt({11, 0})}, true));
+    document.perform("Solo", soloed(document.scene(), {pathAt({3}), pathAt({11, 0})}));
+    const auto isHidden = [&](const std::vector<std::uint32_t>& path) {
+        return !isShown(document.scene(), pathAt(path));
+    };
     for (const std::uint32_t i : {0u, 1u, 2u, 4u, 5u, 6u, 7u, 13u}) EXPECT_TRUE(isHidden({i})) << i;
     for (const std::uint32_t i : {3u, 8u, 9u, 10u, 11u, 12u}) EXPECT_FALSE(isHidden({i})) << i;
     EXPECT_FALSE(isHidden({11, 0})) << "its group was hidden, too";
     EXPECT_FALSE(isHidden({11, 1})) << "a lamp";
     EXPECT_TRUE(isHidden({11, 2}));
-    EXPECT_TRUE(soloed(document.scene(), {at({3}), at({11, 0})}).empty()) << "it is so by now";
+    EXPECT_TRUE(soloed(document.scene(), {pathAt({3}), pathAt({11, 0})}).empty()) << "it is so by now";
     document.perform("Show all", allShown(document.scene()));
     EXPECT_EQ(document.scene(), scene);
     EXPECT_TRUE(allShown(document.scene()).empty());
@@ -169,17 +172,17 @@ TEST(Visibility, SoloLeavesTheLights) {
 
 // Hidden objects stay so, whatever becomes of them.
 TEST(Visibility, EditsKeepIt) {
-    SceneDesc scene = allKinds();
+    SceneDesc scene = sceneOfAllKinds();
     for (const std::uint32_t i : {0u, 6u, 11u}) scene.objects[i].hidden = true;
     SceneDocument document(scene);
     for (const std::uint32_t i : {0u, 6u, 11u}) // its own numbers, a group around it, its transform
-        document.perform("Move", {moved(document.scene(), at({i}), {Translate{{1, 0, 0}}})});
-    EXPECT_FALSE(isShown(document.scene(), at({0})));
-    EXPECT_FALSE(isShown(document.scene(), at({6, 0})));
-    EXPECT_FALSE(isShown(document.scene(), at({11})));
-    document.perform("Hide the group", hidden(document.scene(), {at({6})}, true));
+        document.perform("Move", {moved(document.scene(), pathAt({i}), {Translate{{1, 0, 0}}})});
+    EXPECT_FALSE(isShown(document.scene(), pathAt({0})));
+    EXPECT_FALSE(isShown(document.scene(), pathAt({6, 0})));
+    EXPECT_FALSE(isShown(document.scene(), pathAt({11})));
+    document.perform("Hide the group", hidden(document.scene(), {pathAt({6})}, true));
     const SceneDesc last = document.scene();
-    document.perform("Unwrap", {WrapObject{at({6}), {}}});
+    document.perform("Unwrap", {WrapObject{pathAt({6}), {}}});
     document.undo();
     EXPECT_EQ(document.scene(), last);
     while (document.undo()) {

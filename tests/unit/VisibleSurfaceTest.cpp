@@ -113,7 +113,7 @@ TEST(VisibleSurface, TooMuchIsNotLookedThrough) {
     SphereSetDesc cloud;
     cloud.material = "matte";
     cloud.radius = 0.01;
-    for (int i = 0; i < 2000; ++i) cloud.centers.push_back({0, 0, -4 - 0.001 * i});
+    for (int i = 0; i < 2000; ++i) cloud.centers.emplace_back(0, 0, -4 - 0.001 * i);
     scene.prototypes["cloud"] = {{cloud}};
     for (int i = 0; i < 3000; ++i) scene.objects.push_back({InstanceDesc{"cloud", {Translate{{-3, 3, 0}}}, ""}});
     EXPECT_EQ(seen(scene, 3, 3), "nothing") << "boxes alone are tested there";
