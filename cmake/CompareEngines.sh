@@ -3,10 +3,11 @@
 
 comparison_folder=$PWD/build/run
 comparison_scene=cornell-box-lights
+comparison_width=300
 comparison_spp=100
-software_spp=25      # of Mesa's software driver, which needs about a minute on two cores for that
+software_spp=25      # of Mesa's software driver
 reference_spp=4096   # of the common reference, or as many as fit into
-reference_seconds=30
+reference_seconds=10
 
 # figure KEY FILE: the number of a key of the statistics.
 figure() {
@@ -23,7 +24,7 @@ render() {
     local engine=$1 name=$2
     shift 2
     "build/bin/ray-tracing-$engine" --headless --no-config --scene $comparison_scene \
-        --stats "$comparison_folder/$name.json" "$@"
+        --width $comparison_width --stats "$comparison_folder/$name.json" "$@"
 }
 
 # row ENGINE: of the table. The reference's own error, which its replicates tell, is not the engine's.
