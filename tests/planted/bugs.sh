@@ -73,11 +73,13 @@ bug 'a scale of 0' ObjectReader.cpp 's/factors\.x == 0 \|\| factors\.y == 0 \|\|
 bug 'defocus in a scene file' SceneWriter.cpp 's/\{"defocus_angle", camera\.defocusAngle\}/{"defocus_angle", camera.focusDistance}/' unit.All/BuiltinScenes
 
 # ---- windows, history, benchmark -------------------------------------------------------------------------------------
+bug 'a window that is not drawn again when it is uncovered' App.cpp 's/ \|\| isExposed \|\|/ ||/' gui.PictureTest
 bug 'the key that opens a file' Shortcuts.cpp 's/GLFW_KEY_O, When::Control, \[\]/GLFW_KEY_P, When::Control, []/' gui.WindowFilesTest
 bug 'the curve of a run' RunHistory.cpp 's/curve\.push_back\(\{point\.seconds, point\.relmse\}\)/curve.push_back({point.relmse, point.seconds})/' unit.RunHistoryTest
 bug 'uncertainty of two errors' Efficiency.cpp 's/hypot\(relativeCi\(\*match\.best, pixels\), /hypot(0.0, /' unit.BenchEfficiency
 
 # ---- shape of the code -----------------------------------------------------------------------------------------------
+bug 'shaders lose the branch that is taken' ReachedCode.cpp 's/branch\.onFalse \? 0 : 1/branch.onFalse ? 1 : 0/' cross.ShaderPruning
 bug 'a shader group that no scene needs' RtPipeline.cpp 's/name \+= "\+quads";/list.addTriangles(Shader::QuadHit); &/' cross.ShaderGroupsTest
 bug 'a shared header that needs another one' Media.h 's/#include "Common\/Shared\/Base\/Sampling\.h"//' structure.sharedHeaders.g++
 bug 'an include against the arrows' Film.cpp '1s/$/\n#include "Common\/App\/Platform.h"/' structure.IncludeRules
