@@ -245,8 +245,8 @@ open_window() {
 run_tests() {
     local log=build/test.log failed=build/Testing/Temporary/LastTestsFailed.log status=0 tier=(--label-exclude nightly)
     [[ ${1:-} != --all ]] || tier=()
-    # Some wait more than they compute: one more at a time than there are processors.
-    ctest --test-dir build --output-on-failure --no-label-summary --parallel "$(($(nproc) + 1))" "${tier[@]}" 2>&1 |
+    # Windows wait more than they compute: two more at a time than there are processors.
+    ctest --test-dir build --output-on-failure --no-label-summary --parallel "$(($(nproc) + 2))" "${tier[@]}" 2>&1 |
         tee $log ||
         status=$?
     # Windows that share processors with other tests may be too slow for hands that do not wait: those that failed, if
