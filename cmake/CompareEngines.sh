@@ -3,11 +3,11 @@
 
 comparison_folder=$PWD/build/run
 comparison_scene=cornell-box-lights
-comparison_width=300
+comparison_width=200
 comparison_spp=100
 software_spp=25      # of Mesa's software driver
 reference_spp=4096   # of the common reference, or as many as fit into
-reference_seconds=10
+reference_seconds=5
 
 # figure KEY FILE: the number of a key of the statistics.
 figure() {

@@ -1,5 +1,5 @@
-# Every source and header compiles alone, without warnings: what it uses it includes. Builds merge sources, sixteen at a
-# time, and so hide an include that is missing as long as a neighbour has it.
+# Every source and header compiles alone, without warnings: what it uses it includes. Builds merge sources, up to
+# forty, and so hide an include that is missing as long as a neighbour has it.
 #
 # Compiling each by itself takes long, most of it for the same headers again and again. So Clang reads a header once,
 # whoever includes it, as a part of a module. Who includes it sees that part of the module, and what that includes itself,
