@@ -10,6 +10,8 @@
 #include <unistd.h>
 #include <utility>
 
+#undef None // a macro of X11 and a word of our enumerators, where sources are merged
+
 namespace rt::test {
 namespace {
 

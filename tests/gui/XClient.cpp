@@ -7,9 +7,12 @@
 #include <memory>
 #include <thread>
 
+#undef None // a macro of X11 and a word of our enumerators, where sources are merged
+
 namespace rt::test {
 namespace {
 
+constexpr Atom kNoAtom = 0;
 constexpr long kXdndVersion = 5;
 constexpr long kNormalState = 1, kIconicState = 3; // of WM_STATE (ICCCM 4.1.3.1)
 
@@ -125,7 +128,7 @@ void setMinimised(const std::string& display, unsigned long window, bool minimis
     const Connection connection(XOpenDisplay(display.c_str()));
     if (!connection) return;
     const Atom state = XInternAtom(connection.get(), "WM_STATE", False);
-    const long value[] = {minimised ? kIconicState : kNormalState, None};
+    const long value[] = {minimised ? kIconicState : kNormalState, kNoAtom};
     XChangeProperty(connection.get(), window, state, state, 32, PropModeReplace,
                     reinterpret_cast<const unsigned char*>(value), 2);
     minimised ? XUnmapWindow(connection.get(), window) : XMapWindow(connection.get(), window);
@@ -163,7 +166,7 @@ std::string windowTitle(const std::string& display, unsigned long window) {
     const Atom name = XInternAtom(connection.get(), "_NET_WM_NAME", False);
     const Atom utf8 = XInternAtom(connection.get(), "UTF8_STRING", False);
     constexpr long kMax = 256; // words
-    Atom type = None;
+    Atom type = kNoAtom;
     int format = 0;
     unsigned long bytes = 0, left = 0;
     unsigned char* text = nullptr;
