@@ -77,7 +77,7 @@ Scene makeScene(RTCDevice device, const scene::CompiledScene& s) {
     Scene scene(rtcNewScene(device));
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
     std::vector<shared::vec4> spheres;
-    for (const shared::Sphere& sphere : s.spheres) spheres.push_back({sphere.center, sphere.radius});
+    for (const shared::Sphere& sphere : s.spheres) spheres.emplace_back(sphere.center, sphere.radius);
     attach(device, scene.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT, RTC_FORMAT_FLOAT4, spheres, {}, {}, 0);
     std::vector<vec3> corners;
     std::vector<std::uint32_t> indices;
@@ -191,8 +191,8 @@ std::optional<double> embreeRaysPerSecond(const scene::CompiledScene& scene) {
     constexpr int kPasses = 5;
     std::optional<EmbreeRays> embree = EmbreeRays::make(scene);
     if (!embree) return std::nullopt;
-    std::vector<double> rates;
-    for (int pass = 0; pass < kPasses; ++pass) rates.push_back(embree->trace(0));
+    std::vector<double> rates(kPasses);
+    for (double& rate : rates) rate = embree->trace(0);
     return image::median(rates);
 }
 
