@@ -27,9 +27,13 @@ if "%verb%"=="run" (
     goto end
 )
 set tier=--label-exclude nightly
-if "%~2"=="--all" set tier=
+set kernels=
+if "%~2"=="--all" (
+    set tier=
+    set kernels=-DRT_KERNELS=all
+)
 if "%verb%"=="test" (
-    %configure% -DRT_BUILD_TESTS=ON -DVCPKG_MANIFEST_FEATURES=tests && %build% && ctest --test-dir build --output-on-failure --no-label-summary %tier%
+    %configure% -DRT_BUILD_TESTS=ON %kernels% -DVCPKG_MANIFEST_FEATURES=tests && %build% && ctest --test-dir build --output-on-failure --no-label-summary %tier%
     goto end
 )
 if "%verb%"=="bench" (

@@ -25,7 +25,6 @@ package_packages=(dpkg-dev file)
 docs_packages=(mkdocs)
 python_packages=(python3-dev pybind11-dev python3-numpy)
 
-programs=(ray-tracing-cpu ray-tracing-gpu ray-tracing-image) # what ./build.sh run needs
 preset=release # whatever the environment: what users build is what is tested
 log=build/build.log # of one call
 
@@ -57,7 +56,7 @@ usage() {
 ./build.sh run [gpu]     build the programs alone, then open the window of ray-tracing-cpu, or of ray-tracing-gpu;
                          without a display render the default scene on CPU and GPU and compare them
 ./build.sh run --minimal the same without a window: neither built nor opened
-./build.sh test          the same, then build and run the tests of every change (label ci)
+./build.sh test          the same as ./build.sh, then build and run the tests of every change (label ci)
 ./build.sh test --all    those and the nightly ones (label nightly): random actions, larger samples, the second GPU engine
 ./build.sh fuzz [--fixed] [SECONDS [TARGET...]]
                          build fuzz targets with Clang, unless some are named all, and run them, 60 s together; finds are
@@ -295,13 +294,13 @@ case $verb in
         if [[ ${1:-} == --minimal ]]; then
             install_packages "${headless_packages[@]}"
             configure -DRT_BUILD_GUI=OFF
-            build --target "${programs[@]}"
+            build --target programs
             compare_engines
             exit
         fi
         install_packages "${build_packages[@]}"
         if is_minimal; then configure -URT_BUILD_GUI; else configure; fi
-        build --target "${programs[@]}"
+        build --target programs
         if [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
             open_window "${1:-cpu}"
         else
@@ -312,7 +311,8 @@ case $verb in
         [[ -z ${1:-} || $1 == --all ]] || fail "test $1: must be --all or nothing"
         install_packages "${build_packages[@]}" "${test_packages[@]}" "${cluster_packages[@]}" \
             "${python_packages[@]}" ${1:+"${compiler_packages[@]}"}
-        configure -DRT_BUILD_TESTS=ON -DRT_BUILD_BENCH=ON ${1:+-DRT_KERNELS=all} ${VCPKG_ROOT:+-DVCPKG_MANIFEST_FEATURES=tests}
+        configure -DRT_BUILD_TESTS=ON -DRT_BUILD_BENCH=ON ${1:+-DRT_KERNELS=all} \
+            ${VCPKG_ROOT:+-DVCPKG_MANIFEST_FEATURES=tests}
         build
         provide_device || fail "$no_device_reason"
         run_tests "$@"

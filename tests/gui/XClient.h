@@ -13,8 +13,8 @@ bool dropFiles(const std::string& display, unsigned long window, const std::vect
 // As the only window manager of the display.
 void setMinimised(const std::string& display, unsigned long window, bool minimised);
 
-// As another program on its part of the screen, from the upper left corner; what is painted there lasts until the window
-// draws. exposeWindow() asks it to, as the server does after another window has hidden it.
+// As another program on its part of the screen, from the upper left corner; what is painted there lasts until the
+// window draws. exposeWindow() asks it to, as the server does after another window has hidden it.
 void paintOver(const std::string& display, unsigned long window, unsigned side, std::uint32_t color);
 void exposeWindow(const std::string& display, unsigned long window);
 

@@ -2,9 +2,9 @@
 # forty, and so hide an include that is missing as long as a neighbour has it.
 #
 # Compiling each by itself takes long, most of it for the same headers again and again. So Clang reads a header once,
-# whoever includes it, as a part of a module. Who includes it sees that part of the module, and what that includes itself,
-# but nothing else: such a use is an error that names the header, "declaration of 'Frame' must be imported from module
-# 'Headers.Common/...'". There are three steps:
+# whoever includes it, as a part of a module. Who includes it sees that part of the module, and what that includes
+# itself, but nothing else: such a use is an error that names the header, "declaration of 'Frame' must be imported from
+# module 'Headers.Common/...'". There are three steps:
 #   Libraries   the headers of other projects make one module, of which all is seen at once: the lack of an include of
 #               these stays unnoticed where another one of them is there
 #   Headers     ours make another one
