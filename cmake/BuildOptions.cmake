@@ -33,6 +33,8 @@ if(MSVC)
     add_compile_definitions(_CRT_SECURE_NO_WARNINGS)
 else()
     add_compile_options(-Wall -Wextra -Wpedantic -ffp-contract=off $<$<BOOL:${RT_WARNINGS_AS_ERRORS}>:-Werror>)
+    # GCC looks for memory that it can use again from 128 MB on, which costs a tenth of the time and finds little.
+    add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
     # GCC 12 takes the alternatives that a std::variant does not hold for uninitialised variables.
     add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     # GCC 12's vectoriser of straight-line code drops the rounding to float in double(float(x)) of neighbouring components.

@@ -1,5 +1,6 @@
 # Fails where clang-tidy finds what .clang-tidy names, in the sources of one target and the headers that they include.
-# CONFIG sets files, definitions and includes, as Alone.cmake writes them.
+# CONFIG sets files, definitions and includes, as Alone.cmake writes them; CHECKS, after those of .clang-tidy, leaves
+# some out.
 #
 # One source, MERGED, which this writes, includes all of them: headers, which take most of the time, are read and looked
 # at once for a target. So what is local to a source needs a name that no other source of its target has.
@@ -18,7 +19,7 @@ list(JOIN lines "" text)
 file(WRITE ${MERGED} "${text}")
 include(${CMAKE_CURRENT_LIST_DIR}/ClangOptions.cmake)
 execute_process(COMMAND ${CLANG_TIDY} --quiet --config-file=${ROOT}/.clang-tidy --warnings-as-errors=*
-                        --checks=-bugprone-suspicious-include ${MERGED} -- -x c++ ${options}
+                        --checks=-bugprone-suspicious-include,${CHECKS} ${MERGED} -- -x c++ ${options}
                 RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_QUIET)
 if(NOT code EQUAL 0)
     message(NOTICE "${output}") # whose lines an error would break
