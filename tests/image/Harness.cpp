@@ -1,6 +1,7 @@
 #include "tests/image/Harness.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,16 @@
 #include "tests/image/AnalyticScenes.h"
 
 namespace rt::test {
+namespace {
+
+constexpr std::array kEverySampler = {app::SamplerKind::Independent, app::SamplerKind::Stratified,
+                                      app::SamplerKind::Sobol};
+constexpr std::array kEverySampling = {app::LightSampling::Mixture, app::LightSampling::Mis,
+                                       app::LightSampling::MisBalance};
+constexpr std::array kEverySelection = {app::LightSelection::Uniform, app::LightSelection::Power,
+                                        app::LightSelection::Contribution};
+
+} // namespace
 
 app::RenderSettings smallSettings(std::uint32_t side, std::uint32_t spp) {
     app::RenderSettings settings;
@@ -94,21 +105,38 @@ Estimate render(const SceneDesc& desc, const app::RenderSettings& settings) {
 
 std::vector<app::RenderSettings> allEstimators(const app::RenderSettings& base) {
     std::vector<app::RenderSettings> all;
-    for (auto sampler : {app::SamplerKind::Independent, app::SamplerKind::Stratified, app::SamplerKind::Sobol}) {
-        app::RenderSettings settings = base;
+    app::RenderSettings settings = base;
+    for (const app::SamplerKind sampler : kEverySampler) {
         settings.sampler = sampler;
         settings.lightSampling = app::LightSampling::Bsdf;
+        settings.lightSelection = base.lightSelection;
         all.push_back(settings);
-        for (auto sampling : {app::LightSampling::Mixture, app::LightSampling::Mis, app::LightSampling::MisBalance}) {
-            for (auto selection :
-                 {app::LightSelection::Uniform, app::LightSelection::Power, app::LightSelection::Contribution}) {
+        for (const app::LightSampling sampling : kEverySampling)
+            for (const app::LightSelection selection : kEverySelection) {
                 settings.lightSampling = sampling;
                 settings.lightSelection = selection;
                 all.push_back(settings);
             }
-        }
     }
     return all;
+}
+
+// A Latin square: no two ways to sample lights meet a choice among lights with the same sampler.
+std::vector<app::RenderSettings> estimatorsInPairs(const app::RenderSettings& base) {
+    std::vector<app::RenderSettings> pairs;
+    app::RenderSettings settings = base;
+    for (std::size_t i = 0; i < 3; ++i) {
+        settings.sampler = kEverySampler[i];
+        settings.lightSampling = app::LightSampling::Bsdf;
+        settings.lightSelection = base.lightSelection;
+        pairs.push_back(settings);
+        for (std::size_t j = 0; j < 3; ++j) {
+            settings.lightSampling = kEverySampling[j];
+            settings.lightSelection = kEverySelection[(i + j) % 3];
+            pairs.push_back(settings);
+        }
+    }
+    return pairs;
 }
 
 image::Image renderImage(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings) {

@@ -47,7 +47,7 @@ double varianceOf(const std::vector<image::Image>& images) {
 TEST(PathReuse, EnclosureHasItsClosedFormRadiance) {
     for (bool box : {false, true}) {
         const auto scene = compileScene(shell(box, 0.6, 0.5));
-        for (app::RenderSettings settings : allEstimators(smallSettings(6, 1024))) {
+        for (app::RenderSettings settings : estimatorsInPairs(smallSettings(6, 1024))) {
             settings.pathReuse = PathReuse::On;
             for (std::uint32_t depth : {1u, 2u, 3u, 7u}) {
                 settings.maxDepth = depth;
