@@ -108,7 +108,7 @@ TEST_P(NightlySwapchainTest, OutOfDateAtFrame) {
 }
 
 TEST_P(WindowLossTest, ADeviceThatIsLostWhilePresentingEndsItAndNothingIsLost) {
-    letFail(std::string("vkQueuePresentKHR:20=") + kDeviceLost);
+    letFail(std::string("vkQueuePresentKHR:10=") + kDeviceLost);
     startLongRender();
     ASSERT_FALSE(HasFatalFailure());
     EXPECT_EQ(waitForEnd(), 1) << log();
