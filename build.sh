@@ -89,8 +89,8 @@ cost_told=
 tell_cost() {
     [[ ! -e $1/bin && $cost_told != "$1" ]] || return 0
     cost_told=$1
-    local work=11 # minutes of one processor
-    [[ $verb != test ]] || work=18
+    local work=7 # minutes of one processor
+    [[ $verb != test ]] || work=12
     echo "Compiling takes about $((work / $(nproc) + 1)) min on these $(nproc) processors," \
         "and half a GB in $1/; $log tells the details"
 }

@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kPrefix = ".rt-", kSuffix = ".tmp";
+constexpr std::size_t kDigits = 16; // between them
 
 // Short, whatever the target's name, so that it fits wherever the target does.
 std::string temporaryName() {
@@ -24,7 +25,8 @@ std::string temporaryName() {
 }
 
 bool isTemporary(const std::string& name) {
-    return name.size() == temporaryName().size() && name.starts_with(kPrefix) && name.ends_with(kSuffix);
+    return name.size() == kPrefix.size() + kDigits + kSuffix.size() && name.starts_with(kPrefix) &&
+           name.ends_with(kSuffix);
 }
 
 // Once a program in each folder that it writes to.
