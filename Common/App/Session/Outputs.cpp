@@ -80,6 +80,15 @@ ImageRows rowsOf(Aov aov, const image::Film& film, const AovImages& features, co
     return sampleCountRows(film);
 }
 
+bool isOfDenoiser(Aov aov) {
+    return aov == Aov::Denoised || aov == Aov::DenoisedError;
+}
+
+// Rather than of the film.
+bool isFeature(Aov aov) {
+    return aov != Aov::Variance && aov != Aov::Samples && !isOfDenoiser(aov);
+}
+
 AovRequest featuresFor(const Options& options) {
     AovRequest request{{options.wants(Aov::Albedo), options.wants(Aov::Normal), options.wants(Aov::Depth)}};
     request.wide = {options.wants(Aov::WideAlbedo), options.wants(Aov::WideNormal), options.wants(Aov::WideDepth)};
@@ -145,23 +154,23 @@ OutputResult writeOutputs(const Options& options, const scene::CameraDesc& camer
             return shown(isRaw ? withinRegion(meanRows(film), options.region) : ImageRows(denoised.picture), output);
         });
 
-    const AovRequest request = featuresFor(options);
     AovImages features;
-    const auto renderFeatures = [&] {
-        if (request.any()) features = engine.renderAovs(request, std::min(kAovSamples, options.settings.spp));
-    };
-    const bool hasFeatures = attempt(result.failures, "features of surfaces cannot be made", renderFeatures);
-    const auto exists = [&](Aov aov) {
-        if (aov == Aov::Denoised || aov == Aov::DenoisedError) return isFiltered;
-        return hasFeatures || aov == Aov::Variance || aov == Aov::Samples;
-    };
-    for (const std::filesystem::path output : options.outputs)
-        for (const Aov aov : options.aovs)
-            if (exists(aov))
+    const auto writeAovs = [&](bool ofFeatures) {
+        for (const std::filesystem::path output : options.outputs)
+            for (const Aov aov : options.aovs) {
+                if (isFeature(aov) != ofFeatures || (isOfDenoiser(aov) && !isFiltered)) continue;
                 write(aovPath(output, aov), [&] {
                     const ImageRows rows = withinRegion(rowsOf(aov, film, features, denoised), options.region);
                     return aov == Aov::Denoised ? shown(rows, output) : fitted(rows, aov, output);
                 });
+            }
+    };
+    writeAovs(false); // before features take the memory that these need
+    const AovRequest request = featuresFor(options);
+    const auto renderFeatures = [&] {
+        if (request.any()) features = engine.renderAovs(request, std::min(kAovSamples, options.settings.spp));
+    };
+    if (attempt(result.failures, "features of surfaces cannot be made", renderFeatures)) writeAovs(true);
     return result;
 }
 
