@@ -56,6 +56,13 @@ if(RT_BUILD_FUZZ)
     add_compile_options(-fsanitize=fuzzer-no-link) # the coverage that guides mutations
 endif()
 
+# Of what waits for users and files, or is a test: to compile soon is worth more than to run fast.
+function(rt_compile_sooner target)
+    if(NOT MSVC)
+        target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
+    endif()
+endfunction()
+
 # The instruction sets that kernels are compiled for on this architecture; the program chooses among them at run time.
 string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" RT_PROCESSOR)
 set(RT_ALL_ISAS generic)

@@ -1,9 +1,9 @@
 # One folder, one target: sources are found by where they are, so adding a file changes no list.
 
 # Library `name` of every source in `folder` except Main.cpp, on top of the libraries after DEPENDS; of those after
-# INCLUDES it compiles headers alone, which whoever links it need not have. COLD: what waits for users and files, where
-# to compile soon is worth more than to run fast. Sources named X.<isa>.cpp are kernels: those of this architecture get
-# the options of their instruction set, the others are left out. A folder of headers makes an interface library.
+# INCLUDES it compiles headers alone, which whoever links it need not have. COLD: rt_compile_sooner(). Sources named
+# X.<isa>.cpp are kernels: those of this architecture get the options of their instruction set, the others are left out.
+# A folder of headers makes an interface library.
 function(rt_add_library name folder)
     cmake_parse_arguments(arg "COLD" "" "DEPENDS;INCLUDES" ${ARGN})
     list(TRANSFORM arg_INCLUDES REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")
@@ -32,8 +32,8 @@ function(rt_add_library name folder)
         add_library(${name} STATIC ${sources})
         target_link_libraries(${name} PUBLIC ${arg_DEPENDS} ${arg_INCLUDES})
         target_compile_definitions(${name} PRIVATE ${tables})
-        if(arg_COLD AND NOT MSVC)
-            target_compile_options(${name} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
+        if(arg_COLD)
+            rt_compile_sooner(${name})
         endif()
         # So that the Python module is linked from the very objects that the programs are.
         set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden

@@ -34,8 +34,8 @@ endif()
 function(rt_add_python_module)
     file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/Python/*.cpp)
     pybind11_add_module(rt-python MODULE NO_EXTRAS ${sources})
-    if(NOT MSVC) # of these loops compilers make vectors; all else is called once a call of Python
-        target_compile_options(rt-python PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
+    rt_compile_sooner(rt-python)
+    if(NOT MSVC) # of their loops compilers make vectors
         set_source_files_properties(${PROJECT_SOURCE_DIR}/Python/Arrays.cpp ${PROJECT_SOURCE_DIR}/Python/Shapes.cpp
             PROPERTIES COMPILE_OPTIONS "$<$<NOT:$<CONFIG:Debug>>:-O3>;-fno-math-errno;-fno-trapping-math")
     endif()

@@ -20,6 +20,25 @@ constexpr std::array kEverySampling = {app::LightSampling::Mixture, app::LightSa
 constexpr std::array kEverySelection = {app::LightSelection::Uniform, app::LightSelection::Power,
                                         app::LightSelection::Contribution};
 
+// Those where isWanted(sampler, way to sample lights, choice among lights), given as indices.
+template <class IsWanted>
+std::vector<app::RenderSettings> estimators(const app::RenderSettings& base, const IsWanted& isWanted) {
+    std::vector<app::RenderSettings> wanted;
+    for (std::size_t i = 0; i < kEverySampler.size(); ++i) {
+        app::RenderSettings settings = base;
+        settings.sampler = kEverySampler[i];
+        settings.lightSampling = app::LightSampling::Bsdf;
+        wanted.push_back(settings);
+        for (std::size_t j = 0; j < kEverySampling.size(); ++j)
+            for (std::size_t k = 0; k < kEverySelection.size(); ++k) {
+                settings.lightSampling = kEverySampling[j];
+                settings.lightSelection = kEverySelection[k];
+                if (isWanted(i, j, k)) wanted.push_back(settings);
+            }
+    }
+    return wanted;
+}
+
 } // namespace
 
 app::RenderSettings smallSettings(std::uint32_t side, std::uint32_t spp) {
@@ -104,39 +123,12 @@ Estimate render(const SceneDesc& desc, const app::RenderSettings& settings) {
 }
 
 std::vector<app::RenderSettings> allEstimators(const app::RenderSettings& base) {
-    std::vector<app::RenderSettings> all;
-    app::RenderSettings settings = base;
-    for (const app::SamplerKind sampler : kEverySampler) {
-        settings.sampler = sampler;
-        settings.lightSampling = app::LightSampling::Bsdf;
-        settings.lightSelection = base.lightSelection;
-        all.push_back(settings);
-        for (const app::LightSampling sampling : kEverySampling)
-            for (const app::LightSelection selection : kEverySelection) {
-                settings.lightSampling = sampling;
-                settings.lightSelection = selection;
-                all.push_back(settings);
-            }
-    }
-    return all;
+    return estimators(base, [](std::size_t, std::size_t, std::size_t) { return true; });
 }
 
 // A Latin square: no two ways to sample lights meet a choice among lights with the same sampler.
 std::vector<app::RenderSettings> estimatorsInPairs(const app::RenderSettings& base) {
-    std::vector<app::RenderSettings> pairs;
-    app::RenderSettings settings = base;
-    for (std::size_t i = 0; i < 3; ++i) {
-        settings.sampler = kEverySampler[i];
-        settings.lightSampling = app::LightSampling::Bsdf;
-        settings.lightSelection = base.lightSelection;
-        pairs.push_back(settings);
-        for (std::size_t j = 0; j < 3; ++j) {
-            settings.lightSampling = kEverySampling[j];
-            settings.lightSelection = kEverySelection[(i + j) % 3];
-            pairs.push_back(settings);
-        }
-    }
-    return pairs;
+    return estimators(base, [](std::size_t i, std::size_t j, std::size_t k) { return k == (i + j) % 3; });
 }
 
 image::Image renderImage(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings) {

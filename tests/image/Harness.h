@@ -44,7 +44,8 @@ Estimate render(const SceneDesc& desc, const app::RenderSettings& settings);
 
 // Every way of sampling lights and pixels.
 std::vector<app::RenderSettings> allEstimators(const app::RenderSettings& base);
-// The same where no three of these choices meet in one formula: each with each of another kind, a third of all.
+// A third of allEstimators(), where sampler, way to sample lights and choice among them do not meet all three in one
+// formula: each with each of the others.
 std::vector<app::RenderSettings> estimatorsInPairs(const app::RenderSettings& base);
 
 // Asserts the rows of the stability suite that ray-tracing-bench prints. What they can detect is in their criteria.

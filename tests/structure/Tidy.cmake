@@ -1,6 +1,6 @@
 # Fails where clang-tidy finds what .clang-tidy names, in the sources of one target and the headers that they include.
-# CONFIG sets files, definitions and includes, as Alone.cmake writes them; CHECKS, after those of .clang-tidy, leaves
-# some out.
+# CONFIG sets files, definitions and includes, as Alone.cmake writes them; CHECKS changes
+# which of them look, as an option of clang-tidy.
 #
 # One source, MERGED, which this writes, includes all of them: headers, which take most of the time, are read and looked
 # at once for a target. So what is local to a source needs a name that no other source of its target has.
