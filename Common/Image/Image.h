@@ -14,8 +14,7 @@ struct Image {
     std::vector<float> data; // width * height * channels
 
     Image() = default;
-    Image(std::uint32_t w, std::uint32_t h, std::uint32_t c = 3)
-        : width(w), height(h), channels(c), data(std::size_t{w} * h * c) {}
+    Image(std::uint32_t w, std::uint32_t h, std::uint32_t c = 3); // of zeros
 
     float* pixel(std::uint32_t x, std::uint32_t y) { return &data[(std::size_t{y} * width + x) * channels]; }
     const float* pixel(std::uint32_t x, std::uint32_t y) const {

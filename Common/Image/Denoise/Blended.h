@@ -1,7 +1,8 @@
-// What the filters of all bandwidths make of a pixel together.
+// What the filters of all bandwidths make of a row of pixels together.
 #pragma once
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "Common/Image/Denoise/DenoiseFilter.h"
 #include "Common/Image/Denoise/Planes.h"
@@ -17,17 +18,40 @@ using Choice = std::array<Plane, kDenoiseCandidates>; // the weight of each cand
 inline shared::DenoisedValue rawValue(float raw) {
     return {raw, raw, 1, 0};
 }
-// The value of a candidate in place of a pixel of a half, in radiance.
-shared::DenoisedValue valueOf(const Halves& halves, std::size_t candidate, std::size_t half, std::size_t channel,
-                              std::size_t x, std::size_t y);
 
-// Of one channel of a pixel.
+// Of one channel of a pixel, in radiance.
 struct Blended {
     shared::DenoisedValue a, b; // both halves
     float mean;                 // of them
     float noise;                // of the mean: half of theirs, squared
     float error;                // of the mean, squared, as estimated
 };
-Blended blendedAt(const Halves& halves, const Choice& weights, std::size_t channel, std::size_t x, std::size_t y);
+
+// A row of pixels, of which one channel at a time is blended. Halves and weights must outlive it.
+class BlendedRow {
+  public:
+    BlendedRow(const Halves& halves, const Choice& weights, std::size_t y);
+
+    void blend(std::size_t channel);
+    Blended at(std::size_t x) const; // of that channel
+
+  private:
+    // Of one half.
+    struct Values {
+        const float* raw = nullptr;
+        std::vector<float> filtered, ownFactors, partnerFactors;
+        shared::DenoisedValue at(std::size_t x) const {
+            return {filtered[x], raw[x], ownFactors[x], partnerFactors[x]};
+        }
+    };
+
+    // The mean difference of the raw halves of those pixels of a 2x2 square that are not the one at hand.
+    float partnerNoise(std::size_t x) const;
+
+    const Halves& halves_;
+    const Choice& weights_;
+    std::size_t y_, width_, channel_ = 0;
+    Values values_[2];
+};
 
 } // namespace rt::image

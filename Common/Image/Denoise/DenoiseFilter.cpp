@@ -7,6 +7,7 @@
 #include "Common/Core/Interruption.h"
 #include "Common/Core/KernelSets.h"
 #include "Common/Core/Parallel.h"
+#include "Common/Core/SystemMemory.h"
 #include "Common/Image/Denoise/DenoiseKernel.h"
 #include "Common/Image/Denoise/FeatureSpace.h"
 
@@ -27,16 +28,21 @@ DenoiseKernels bestKernels() {
 
 // ---- features ------------------------------------------------------------------------------------------------------
 
-std::vector<SurfaceFeatures> surfaceFeatures(const DenoiseInput& input, std::size_t pixels) {
-    std::vector<SurfaceFeatures> features(pixels);
+std::vector<SurfaceFeatures> surfaceFeatures(const DenoiseInput& input, std::size_t pixels, std::size_t threads) {
+    constexpr std::size_t kPixels = 4096; // at a time
+    std::vector<SurfaceFeatures> features;
+    resizeLarge(features, pixels);
     const float depthUnit = usualDepth(input.depth);
-    for (std::size_t i = 0; i < pixels; ++i) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            if (!input.albedo.data.empty()) features[i][c] = shared::denoiseAlbedo(input.albedo.data[3 * i + c]);
-            if (!input.normal.data.empty()) features[i][3 + c] = shared::denoiseNormal(input.normal.data[3 * i + c]);
+    parallelChunks(threads, pixels, kPixels, [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                if (!input.albedo.data.empty()) features[i][c] = shared::denoiseAlbedo(input.albedo.data[3 * i + c]);
+                if (!input.normal.data.empty())
+                    features[i][3 + c] = shared::denoiseNormal(input.normal.data[3 * i + c]);
+            }
+            if (!input.depth.data.empty()) features[i][6] = shared::denoiseDepth(input.depth.data[i], depthUnit);
         }
-        if (!input.depth.data.empty()) features[i][6] = shared::denoiseDepth(input.depth.data[i], depthUnit);
-    }
+    });
     return features;
 }
 
@@ -64,8 +70,9 @@ void makeGuide(Half& half, BorderedPlane& variance, BorderedPlane& inside, const
     const std::size_t width = half.tones[0].width(), height = half.tones[0].height();
     std::array<BorderedPlane, 3> tones{BorderedPlane(half.tones[0]), BorderedPlane(half.tones[1]),
                                        BorderedPlane(half.tones[2])};
-    half.guideVariance = Plane(width, height);
-    for (Plane& plane : half.guide) plane = Plane(width, height);
+    PlaneBlock block(width, height, 4);
+    half.guideVariance = block.next();
+    for (Plane& plane : half.guide) plane = block.next();
     parallelFor(threads, height, [&](std::size_t y) {
         interruptionPoint();
         DenoiseGuideRow row;
@@ -229,21 +236,25 @@ float usualDepth(const Image& depth) {
 
 void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads) {
     const std::size_t width = halves.variance.width(), height = halves.variance.height();
-    const std::vector<SurfaceFeatures> features = surfaceFeatures(input, width * height);
+    const std::vector<SurfaceFeatures> features = surfaceFeatures(input, width * height, threads);
+    PlaneBlock block(width, height, std::size_t{kDenoiseBandwidths} * 2 * 5);
     for (std::size_t i = 0; i < kDenoiseBandwidths; ++i)
         for (std::size_t half = 0; half < 2; ++half) {
-            halves.ownFactors[i][half] = halves.partnerFactors[i][half] = Plane(width, height);
-            for (Plane& plane : halves.filtered[i][half]) plane = Plane(width, height);
+            halves.ownFactors[i][half] = block.next();
+            halves.partnerFactors[i][half] = block.next();
+            for (Plane& plane : halves.filtered[i][half]) plane = block.next();
         }
     const std::size_t columns = (width + kDenoiseTile - 1) / kDenoiseTile,
                       rows = (height + kDenoiseTile - 1) / kDenoiseTile;
     const DenoiseKernels kernels = bestKernels();
     if (!halves.hasRawGuides()) makeGuides(halves, kernels, threads);
-    parallelFor(threads, rows, [&](std::size_t row) {
+    // Some tiles at a time: fewer than a row has, which one thread would still filter when others are done.
+    parallelChunks(threads, columns * rows, 8, [&](std::size_t first, std::size_t end) {
         TileFilter filter(halves, features, kernels);
-        for (std::size_t column = 0; column < columns; ++column) {
+        for (std::size_t tile = first; tile < end; ++tile) {
             interruptionPoint();
-            filter.filter(static_cast<int>(column) * kDenoiseTile, static_cast<int>(row) * kDenoiseTile);
+            filter.filter(static_cast<int>(tile % columns) * kDenoiseTile,
+                          static_cast<int>(tile / columns) * kDenoiseTile);
         }
     });
 }

@@ -22,8 +22,10 @@ constexpr double kFormulaError = 0.1; // of the formula for the error, beside it
 
 Half makeHalf(const Image& image, std::size_t threads) {
     Half half;
+    PlaneBlock block(image.width, image.height, 6);
     for (std::size_t c = 0; c < 3; ++c) {
-        half.radiance[c] = half.tones[c] = Plane(image.width, image.height);
+        half.radiance[c] = block.next();
+        half.tones[c] = block.next();
         parallelFor(threads, image.height, [&](std::size_t y) {
             for (std::size_t x = 0; x < image.width; ++x) {
                 const float value = image.data[(y * image.width + x) * 3 + c];
@@ -38,36 +40,41 @@ Half makeHalf(const Image& image, std::size_t threads) {
 
 // ---- choosing ------------------------------------------------------------------------------------------------------
 
+// What one candidate after another needs to find its errors.
+struct ErrorPlanes {
+    Plane errors, rowSums, otherSums;
+};
+
 // Of each pixel by the means around it: sums of rows, with and without what is nearest, then of these.
-Plane choiceErrors(const Plane& errors, std::size_t threads) {
-    constexpr std::size_t kReach = shared::kDenoiseChoiceReach, kOwn = shared::kDenoiseOwnReach;
-    const std::size_t width = errors.width(), height = errors.height();
-    Plane rowSums(width, height), otherSums = rowSums, result = rowSums;
+void averageErrors(ErrorPlanes& planes, std::size_t threads, Plane& means) {
+    constexpr int kReach = shared::kDenoiseChoiceReach, kOwn = shared::kDenoiseOwnReach;
+    const std::size_t width = means.width(), height = means.height();
     parallelFor(threads, height, [&](std::size_t y) {
-        for (std::size_t x = 0; x < width; ++x) {
-            const InReach all(x, kReach, width), own(x, kOwn, width);
-            for (std::size_t from = all.first; from <= all.last; ++from) {
-                rowSums.row(y)[x] += errors.row(y)[from];
-                if (!own.contains(from)) otherSums.row(y)[x] += errors.row(y)[from];
-            }
+        const float* errors = planes.errors.row(y);
+        float *all = planes.rowSums.row(y), *others = planes.otherSums.row(y);
+        std::fill_n(all, width, 0.0f);
+        std::fill_n(others, width, 0.0f);
+        for (int shift = -kReach; shift <= kReach; ++shift) {
+            addShifted(errors, shift, width, all);
+            if (shift < -kOwn || shift > kOwn) addShifted(errors, shift, width, others);
         }
     });
     parallelFor(threads, height, [&](std::size_t y) {
         const InReach rows(y, kReach, height), ownRows(y, kOwn, height);
+        std::vector<float> others(width, 0.0f);
+        float* all = means.row(y);
+        for (std::size_t from = rows.first; from <= rows.last; ++from) {
+            addShifted(planes.rowSums.row(from), 0, width, all);
+            addShifted((ownRows.contains(from) ? planes.otherSums : planes.rowSums).row(from), 0, width, others.data());
+        }
         for (std::size_t x = 0; x < width; ++x) {
-            float sum = 0, others = 0;
-            for (std::size_t from = rows.first; from <= rows.last; ++from) {
-                sum += rowSums.row(from)[x];
-                others += (ownRows.contains(from) ? otherSums : rowSums).row(from)[x];
-            }
             const std::size_t count = rows.count() * InReach(x, kReach, width).count();
             const std::size_t otherCount = count - ownRows.count() * InReach(x, kOwn, width).count();
-            const float mean = sum / static_cast<float>(count);
-            result.row(y)[x] =
-                otherCount > 0 ? shared::denoiseChoiceError(mean, others / static_cast<float>(otherCount)) : mean;
+            const float mean = all[x] / static_cast<float>(count);
+            all[x] =
+                otherCount > 0 ? shared::denoiseChoiceError(mean, others[x] / static_cast<float>(otherCount)) : mean;
         }
     });
-    return result;
 }
 
 // Adds a row of errors of one channel, in tones, of each pixel's own noise.
@@ -80,118 +87,137 @@ void addToneErrors(const std::array<const float*, 2>& filtered, const std::array
     }
 }
 
-// The error of a filter by which it is chosen.
-Plane filterErrors(const Halves& halves, std::size_t filter, std::size_t threads) {
-    Plane errors(halves.variance.width(), halves.variance.height());
+// A row of the errors of a filter by which it is chosen.
+void filterErrors(const Halves& halves, std::size_t filter, std::size_t y, float* errors) {
     const auto& own = halves.ownFactors[filter];
-    parallelFor(threads, errors.height(), [&](std::size_t y) {
-        for (std::size_t c = 0; c < 3; ++c)
-            addToneErrors({halves.filtered[filter][0][c].row(y), halves.filtered[filter][1][c].row(y)},
-                          {halves.half[0].tones[c].row(y), halves.half[1].tones[c].row(y)},
-                          {own[0].row(y), own[1].row(y)}, errors.width(), errors.row(y));
-    });
-    return choiceErrors(errors, threads);
+    for (std::size_t c = 0; c < 3; ++c)
+        addToneErrors({halves.filtered[filter][0][c].row(y), halves.filtered[filter][1][c].row(y)},
+                      {halves.half[0].tones[c].row(y), halves.half[1].tones[c].row(y)}, {own[0].row(y), own[1].row(y)},
+                      halves.variance.width(), errors);
 }
 
-// The error of pixels as they are, to be compared with filterErrors().
-Plane rawErrors(const Halves& halves, std::size_t threads) {
-    Plane errors(halves.variance.width(), halves.variance.height());
-    parallelFor(threads, errors.height(), [&](std::size_t y) {
-        for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t x = 0; x < errors.width(); ++x) {
-                const shared::DenoisedValue a = rawValue(halves.half[0].tones[c].row(y)[x]);
-                const shared::DenoisedValue b = rawValue(halves.half[1].tones[c].row(y)[x]);
-                errors.row(y)[x] += shared::kDenoiseRawCaution * shared::denoiseError(a, b, 0);
-            }
-    });
-    return choiceErrors(errors, threads);
+// The same of pixels as they are.
+void rawErrors(const Halves& halves, std::size_t y, float* errors) {
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float *a = halves.half[0].tones[c].row(y), *b = halves.half[1].tones[c].row(y);
+        for (std::size_t x = 0; x < halves.variance.width(); ++x)
+            errors[x] += shared::kDenoiseRawCaution * shared::denoiseError(rawValue(a[x]), rawValue(b[x]), 0);
+    }
 }
 
 // 1 for the candidate of the least error.
 Choice choose(const Halves& halves, std::size_t threads) {
     const std::size_t width = halves.variance.width(), height = halves.variance.height();
     const std::size_t candidates = halves.mayStayRaw() ? kDenoiseCandidates : kRawCandidate;
-    Choice errors, chosen;
-    for (std::size_t i = 0; i < kRawCandidate; ++i) errors[i] = filterErrors(halves, i, threads);
-    if (halves.mayStayRaw()) errors[kRawCandidate] = rawErrors(halves, threads);
-    for (Plane& plane : chosen) plane = Plane(width, height);
-    for (std::size_t y = 0; y < height; ++y)
+    PlaneBlock results(width, height, kDenoiseCandidates), block(width, height, kDenoiseCandidates + 3);
+    ErrorPlanes planes{block.next(), block.next(), block.next()};
+    Choice means, chosen;
+    for (std::size_t i = 0; i < kDenoiseCandidates; ++i) {
+        means[i] = block.next();
+        chosen[i] = results.next();
+    }
+    for (std::size_t i = 0; i < candidates; ++i) {
+        parallelFor(threads, height, [&](std::size_t y) {
+            float* errors = planes.errors.row(y);
+            std::fill_n(errors, width, 0.0f);
+            if (i == kRawCandidate)
+                rawErrors(halves, y, errors);
+            else
+                filterErrors(halves, i, y, errors);
+        });
+        averageErrors(planes, threads, means[i]);
+    }
+    parallelFor(threads, height, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {
             std::size_t best = 0;
             for (std::size_t i = 1; i < candidates; ++i)
-                if (errors[i].row(y)[x] < errors[best].row(y)[x]) best = i;
+                if (means[i].row(y)[x] < means[best].row(y)[x]) best = i;
             chosen[best].row(y)[x] = 1;
         }
+    });
     return chosen;
-}
-
-double meanOf(const Plane& plane) {
-    double sum = 0;
-    for (std::size_t y = 0; y < plane.height(); ++y)
-        for (std::size_t x = 0; x < plane.width(); ++x) sum += plane.row(y)[x];
-    return sum / (static_cast<double>(plane.width()) * static_cast<double>(plane.height()));
 }
 
 // ---- the result ----------------------------------------------------------------------------------------------------
 
+// Over one row of it, or over all.
+struct ResultSums {
+    DenoiseErrorSums errors;
+    std::array<double, kDenoiseCandidates> weights{};
+};
+
 // One row of it, and of the squared errors.
-DenoiseErrorSums finishRow(const Halves& halves, const Choice& weights, std::size_t row, Denoised& result,
-                           Planes& errors) {
-    DenoiseErrorSums sums;
-    const auto y = static_cast<std::uint32_t>(row);
-    for (std::uint32_t x = 0; x < result.picture.width; ++x) {
-        double pixel = 0;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const Blended value = blendedAt(halves, weights, c, x, y);
-            result.halfA.pixel(x, y)[c] = value.a.filtered;
-            result.halfB.pixel(x, y)[c] = value.b.filtered;
-            result.picture.pixel(x, y)[c] = value.mean;
+ResultSums finishRow(const Halves& halves, const Choice& weights, std::size_t y, Denoised& result, Planes& errors) {
+    const std::size_t width = result.picture.width;
+    ResultSums sums;
+    std::vector<double> pixelErrors(width, 0.0);
+    BlendedRow row(halves, weights, y);
+    for (std::size_t c = 0; c < 3; ++c) {
+        row.blend(c);
+        for (std::size_t x = 0, at = y * width * 3 + c; x < width; ++x, at += 3) {
+            const Blended value = row.at(x);
+            result.halfA.data[at] = value.a.filtered;
+            result.halfB.data[at] = value.b.filtered;
+            result.picture.data[at] = value.mean;
             errors[c].row(y)[x] = value.error;
             const double unit = 1 / (double{value.mean} * value.mean + kRelativeFloor);
-            pixel += value.error * unit;
-            sums.minimum += value.noise * unit;
+            pixelErrors[x] += value.error * unit;
+            sums.errors.minimum += value.noise * unit;
         }
-        for (std::size_t i = 0; i < kDenoiseCandidates; ++i)
-            *result.bandwidth.pixel(x, y) += weights[i].row(y)[x] * static_cast<float>(i);
-        sums.errors += pixel;
-        sums.squares += pixel * pixel;
     }
+    for (const double pixel : pixelErrors) {
+        sums.errors.errors += pixel;
+        sums.errors.squares += pixel * pixel;
+    }
+    for (std::size_t i = 0; i < kDenoiseCandidates; ++i)
+        for (std::size_t x = 0; x < width; ++x) {
+            const float weight = weights[i].row(y)[x];
+            result.bandwidth.data[y * width + x] += weight * static_cast<float>(i);
+            sums.weights[i] += weight;
+        }
     return sums;
 }
 
 // By what the pixels around chose, so that no seam is seen where the choice changes.
-Choice blend(const Choice& chosen, std::size_t threads) {
-    Choice weights;
-    for (std::size_t i = 0; i < kDenoiseCandidates; ++i)
-        weights[i] = boxMean(chosen[i], shared::kDenoiseBlendReach, threads);
-    const Plane raw = boxMean(chosen[kRawCandidate], shared::kDenoiseRawBlendReach, threads);
-    for (std::size_t y = 0; y < raw.height(); ++y)
-        for (std::size_t x = 0; x < raw.width(); ++x) {
+Choice blend(Choice weights, std::size_t threads) {
+    const std::size_t width = weights[kRawCandidate].width(), height = weights[kRawCandidate].height();
+    Plane raw(width, height);
+    for (std::size_t y = 0; y < height; ++y) std::copy_n(weights[kRawCandidate].row(y), width, raw.row(y));
+    boxMeans({&raw, 1}, shared::kDenoiseRawBlendReach, threads);
+    boxMeans(weights, shared::kDenoiseBlendReach, threads);
+    parallelFor(threads, height, [&](std::size_t y) {
+        for (std::size_t x = 0; x < width; ++x) {
             const float newRaw = raw.row(y)[x];
             const float scale = shared::denoiseFilterScale(weights[kRawCandidate].row(y)[x], newRaw);
             for (std::size_t i = 0; i < kRawCandidate; ++i) weights[i].row(y)[x] *= scale;
             weights[kRawCandidate].row(y)[x] = newRaw;
         }
+    });
     return weights;
 }
 
 void finish(const Halves& halves, Denoised& result, std::size_t threads) {
     Choice weights = blend(choose(halves, threads), threads);
     if (halves.isMixed()) mixWithRaw(halves, weights, threads);
-    for (std::size_t i = 0; i < kDenoiseCandidates; ++i) result.shares[i] = meanOf(weights[i]);
-    const std::size_t width = result.picture.width, height = result.picture.height;
-    Planes errors{Plane(width, height), Plane(width, height), Plane(width, height)};
-    std::vector<DenoiseErrorSums> rows(height);
+    const std::size_t width = result.picture.width, height = result.picture.height, pixels = width * height;
+    PlaneBlock block(width, height, 3);
+    Planes errors{block.next(), block.next(), block.next()};
+    std::vector<ResultSums> rows(height);
     parallelFor(threads, height, [&](std::size_t y) { rows[y] = finishRow(halves, weights, y, result, errors); });
     DenoiseErrorSums sums;
-    for (const DenoiseErrorSums& row : rows) sums += row;
-    if (halves.isGivenBack()) giveBack(halves, result, threads);
-    result.relmse = denoisedRelMse(sums, width * height, halves.dependentSide);
-    for (std::size_t c = 0; c < 3; ++c) {
-        errors[c] = boxMean(errors[c], shared::kDenoiseErrorReach, threads);
-        for (std::uint32_t y = 0; y < height; ++y)
-            for (std::uint32_t x = 0; x < width; ++x) result.error.pixel(x, y)[c] = std::max(errors[c].row(y)[x], 0.0f);
+    for (const ResultSums& row : rows) {
+        sums += row.errors;
+        for (std::size_t i = 0; i < kDenoiseCandidates; ++i)
+            result.shares[i] += row.weights[i] / static_cast<double>(pixels);
     }
+    if (halves.isGivenBack()) giveBack(halves, result, threads);
+    result.relmse = denoisedRelMse(sums, pixels, halves.dependentSide);
+    boxMeans(errors, shared::kDenoiseErrorReach, threads);
+    parallelFor(threads, height, [&](std::size_t y) {
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t x = 0; x < width; ++x)
+                result.error.data[(y * width + x) * 3 + c] = std::max(errors[c].row(y)[x], 0.0f);
+    });
 }
 
 // Of a tone of a half, summed over the channels.
@@ -204,7 +230,8 @@ Plane toneVariance(const Halves& halves, std::size_t threads) {
                 variance.row(y)[x] += 0.5f * difference * difference;
             }
     });
-    return boxMean(variance, shared::kDenoiseVarianceReach, threads);
+    boxMeans({&variance, 1}, shared::kDenoiseVarianceReach, threads);
+    return variance;
 }
 
 } // namespace

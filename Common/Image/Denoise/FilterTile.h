@@ -52,17 +52,14 @@ RT_FN void averageColumns(const float* columns, float* patches) {
     }
 }
 
-// Mean distances of the patches around the pixels of a row to those at an offset. `ring` has the rows that the larger
-// ones need, the upper ones first.
-RT_CALL void averagePatches(const float* const (&ring)[kDenoiseRing], float* small, float* large) {
-    float inSmall[kDenoiseDistances], inLarge[kDenoiseDistances];
+// Sums of the columns of patches of both sizes, of the pixels of a row and those at one offset. `ring` has the rows that
+// the larger ones need, the upper ones first.
+RT_CALL void sumColumns(const float* const (&ring)[kDenoiseRing], float* small, float* large) {
     for (int i = 0; i < kDenoiseDistances; i += kLaneCount) {
         const Float8 middle = load(ring[2] + i) + load(ring[3] + i) + load(ring[4] + i);
-        store(inSmall + i, middle);
-        store(inLarge + i, middle + (load(ring[0] + i) + load(ring[1] + i)) + (load(ring[5] + i) + load(ring[6] + i)));
+        store(small + i, middle);
+        store(large + i, middle + (load(ring[0] + i) + load(ring[1] + i)) + (load(ring[5] + i) + load(ring[6] + i)));
     }
-    averageColumns<1>(inSmall, small);
-    averageColumns<kDenoisePatchReach>(inLarge, large);
 }
 static_assert(kDenoiseRing == 7);
 
@@ -126,11 +123,11 @@ RT_CALL void addFactor(const DenoiseTile& tile, const Eight& eight, const float*
 }
 
 // What is fitted at a pixel is a sum over those in reach of weight x (features at the pixel . inverse of the products .
-// features there) x radiance: one system serves all channels.
+// features there) x radiance: one system serves all channels, and no product of features and radiance is needed.
 template <int kCount>
 RT_CALL void regress(const DenoiseTile& tile, const Reach& reach, const Eight& eight, const float* patches) {
-    Float8 products[kCount][kCount], radiance[kCount][3], inverse[kCount], solution[kCount];
-    sumProducts<kCount>(tile, reach, products, radiance);
+    Float8 products[kCount][kCount], inverse[kCount], solution[kCount], fitted[3];
+    sumProducts<kCount>(tile, reach, products);
     products[0][0] = products[0][0] + broadcast(shared::kDenoiseTiny);
     for (int i = 1; i < kCount; ++i)
         products[i][i] = products[i][i] +
@@ -139,11 +136,9 @@ RT_CALL void regress(const DenoiseTile& tile, const Reach& reach, const Eight& e
     for (int i = 0; i < kCoordinates; ++i) solution[i] = broadcast(i == 0 ? 1.0f : 0.0f);
     for (int i = kCoordinates; i < kCount; ++i) solution[i] = load(tile.features[i - kCoordinates] + eight.first);
     solve(products, inverse, solution);
-    for (int c = 0; c < 3; ++c) {
-        Float8 value = broadcast(0);
-        for (int i = 0; i < kCount; ++i) value = multiplyAdd(solution[i], radiance[i][c], value);
-        store(tile.filtered[eight.candidate][c] + eight.pixel, maximum(value, broadcast(0)));
-    }
+    sumFitted<kCount>(tile, reach, solution, fitted);
+    for (int c = 0; c < 3; ++c)
+        store(tile.filtered[eight.candidate][c] + eight.pixel, maximum(fitted[c], broadcast(0)));
     Float8 own = broadcast(0), partners = broadcast(0);
     addFactor(tile, eight, patches, 0, 0, solution, own);
     store(tile.ownFactor[eight.candidate] + eight.pixel, own);
@@ -170,13 +165,21 @@ RT_CALL void regress(const DenoiseTile& tile, const Reach& reach, const Eight& e
 }
 static_assert(kDenoiseSurfaceFeatures == 4);
 
-// Mean distances of patches: for each eight pixels of the row, by offset.
+// Mean distances of patches: for each eight pixels of the row, by offset. First the columns of all offsets of a row are
+// summed, as what has just been stored takes long to load again at another place.
 RT_CALL void averageRow(Scratch scratch, int row) {
-    for (int offset = 0; offset < kDenoiseOffsets; ++offset) {
-        const float* ring[kDenoiseRing];
-        for (int i = 0; i < kDenoiseRing; ++i) ring[i] = scratch.rowOfRing(offset, row + i - kDenoisePatchReach);
-        averagePatches(ring, scratch.patches + offset * kLaneCount,
-                       scratch.patches + (kDenoiseTile * kDenoiseOffsets + offset * kLaneCount));
+    float small[kDenoiseRowOffsets][kDenoiseDistances], large[kDenoiseRowOffsets][kDenoiseDistances];
+    for (int first = 0; first < kDenoiseOffsets; first += kDenoiseRowOffsets) {
+        for (int i = 0; i < kDenoiseRowOffsets; ++i) {
+            const float* ring[kDenoiseRing];
+            for (int k = 0; k < kDenoiseRing; ++k) ring[k] = scratch.rowOfRing(first + i, row + k - kDenoisePatchReach);
+            sumColumns(ring, small[i], large[i]);
+        }
+        for (int i = 0; i < kDenoiseRowOffsets; ++i) {
+            float* patches = scratch.patches + (first + i) * kLaneCount;
+            averageColumns<1>(small[i], patches);
+            averageColumns<kDenoisePatchReach>(large[i], patches + kDenoiseTile * kDenoiseOffsets);
+        }
     }
 }
 

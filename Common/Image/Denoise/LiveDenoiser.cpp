@@ -94,7 +94,7 @@ void LiveDenoiser::load(const DenoiseInput& input, std::size_t threads) {
             for (std::size_t x = 0; x < width_; ++x) row[x] += 0.5f * (a[x] - b[x]) * (a[x] - b[x]);
         }
     });
-    variance = boxMean(variance, shared::kDenoiseVarianceReach, threads);
+    boxMeans({&variance, 1}, shared::kDenoiseVarianceReach, threads);
     for (Half& half : levels_[0])
         for (std::size_t y = 0; y < height_; ++y) std::copy_n(variance.row(y), width_, half.variance.row(y));
 }

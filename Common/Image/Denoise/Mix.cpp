@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "Common/Core/Parallel.h"
 #include "Common/Shared/Denoise/DenoiseMix.h"
@@ -13,19 +14,23 @@ namespace {
 
 constexpr std::size_t kCellSide = shared::kDenoiseCell;
 
-// Sums over each cell of what mixAt(x, y) returns.
+// Sums over each cell of what mixRow(y, mixes) writes for the pixels of a row.
 class MixCells {
   public:
-    template <class MixAt>
-    MixCells(std::size_t width, std::size_t height, std::size_t threads, const MixAt& mixAt)
-        : gain_((width + kCellSide - 1) / kCellSide, (height + kCellSide - 1) / kCellSide), change_(gain_) {
+    template <class MixRow>
+    MixCells(std::size_t width, std::size_t height, std::size_t threads, const MixRow& mixRow)
+        : gain_((width + kCellSide - 1) / kCellSide, (height + kCellSide - 1) / kCellSide),
+          change_(gain_.width(), gain_.height()) {
         parallelFor(threads, gain_.height(), [&](std::size_t row) {
-            for (std::size_t y = row * kCellSide; y < std::min(height, (row + 1) * kCellSide); ++y)
+            std::vector<shared::DenoiseMix> mixes(width);
+            for (std::size_t y = row * kCellSide; y < std::min(height, (row + 1) * kCellSide); ++y) {
+                std::fill(mixes.begin(), mixes.end(), shared::DenoiseMix{0, 0});
+                mixRow(y, mixes);
                 for (std::size_t x = 0; x < width; ++x) {
-                    const shared::DenoiseMix mix = mixAt(x, y);
-                    gain_.row(row)[x / kCellSide] += mix.gain;
-                    change_.row(row)[x / kCellSide] += mix.change;
+                    gain_.row(row)[x / kCellSide] += mixes[x].gain;
+                    change_.row(row)[x / kCellSide] += mixes[x].change;
                 }
+            }
         });
     }
 
@@ -55,40 +60,50 @@ void add(shared::DenoiseMix& sum, const shared::DenoiseMix& mix) {
     sum.change += mix.change;
 }
 
-// Of one channel, means over the pixels around each: of what the filter took away from both halves, and of half of the
-// difference of the raw ones.
+// Means over the pixels around each: of what the filter took away from both halves, and of half of the difference of the
+// raw ones.
 struct CoarseResiduals {
-    Plane a, b, halfDifference;
+    std::array<Plane, 9> planes;
+    CoarseResiduals(const Halves& halves, const Denoised& filtered, std::size_t threads);
+
+    Plane& a(std::size_t channel) { return planes[channel]; }
+    Plane& b(std::size_t channel) { return planes[3 + channel]; }
+    Plane& halfDifference(std::size_t channel) { return planes[6 + channel]; }
 };
 
-CoarseResiduals coarseResiduals(const Halves& halves, const Denoised& filtered, std::size_t channel,
-                                std::size_t threads) {
-    const Plane &rawA = halves.half[0].radiance[channel], &rawB = halves.half[1].radiance[channel];
-    CoarseResiduals single{Plane(rawA.width(), rawA.height()), Plane(rawA.width(), rawA.height()),
-                           Plane(rawA.width(), rawA.height())};
-    parallelFor(threads, rawA.height(), [&](std::size_t y) {
-        for (std::size_t x = 0; x < rawA.width(); ++x) {
-            const std::size_t at = (y * rawA.width() + x) * 3 + channel;
-            single.a.row(y)[x] = rawA.row(y)[x] - filtered.halfA.data[at];
-            single.b.row(y)[x] = rawB.row(y)[x] - filtered.halfB.data[at];
-            single.halfDifference.row(y)[x] = 0.5f * (rawA.row(y)[x] - rawB.row(y)[x]);
+CoarseResiduals::CoarseResiduals(const Halves& halves, const Denoised& filtered, std::size_t threads) {
+    const std::size_t width = filtered.picture.width, height = filtered.picture.height;
+    PlaneBlock block(width, height, planes.size());
+    for (Plane& plane : planes) plane = block.next();
+    parallelFor(threads, height, [&](std::size_t y) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float *rawA = halves.half[0].radiance[c].row(y), *rawB = halves.half[1].radiance[c].row(y);
+            const float *filteredA = &filtered.halfA.data[y * width * 3 + c],
+                        *filteredB = &filtered.halfB.data[y * width * 3 + c];
+            float *rowA = a(c).row(y), *rowB = b(c).row(y), *rowDifference = halfDifference(c).row(y);
+            for (std::size_t x = 0; x < width; ++x) {
+                rowA[x] = rawA[x] - filteredA[x * 3];
+                rowB[x] = rawB[x] - filteredB[x * 3];
+                rowDifference[x] = 0.5f * (rawA[x] - rawB[x]);
+            }
         }
     });
-    const auto mean = [threads](const Plane& plane) { return boxMean(plane, shared::kDenoiseCoarseReach, threads); };
-    return {mean(single.a), mean(single.b), mean(single.halfDifference)};
+    boxMeans(planes, shared::kDenoiseCoarseReach, threads);
 }
 
 } // namespace
 
 void mixWithRaw(const Halves& halves, Choice& weights, std::size_t threads) {
     const std::size_t width = halves.variance.width(), height = halves.variance.height();
-    const MixCells cells(width, height, threads, [&](std::size_t x, std::size_t y) {
-        shared::DenoiseMix sum{0, 0};
+    const MixCells cells(width, height, threads, [&](std::size_t y, std::vector<shared::DenoiseMix>& mixes) {
+        BlendedRow row(halves, weights, y);
         for (std::size_t c = 0; c < 3; ++c) {
-            const Blended pixel = blendedAt(halves, weights, c, x, y);
-            add(sum, shared::denoiseMix(pixel.a, pixel.b, pixel.error));
+            row.blend(c);
+            for (std::size_t x = 0; x < width; ++x) {
+                const Blended pixel = row.at(x);
+                add(mixes[x], shared::denoiseMix(pixel.a, pixel.b, pixel.error));
+            }
         }
-        return sum;
     });
     parallelFor(threads, height, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {
@@ -101,15 +116,15 @@ void mixWithRaw(const Halves& halves, Choice& weights, std::size_t threads) {
 
 void giveBack(const Halves& halves, Denoised& result, std::size_t threads) {
     const std::uint32_t width = result.picture.width, height = result.picture.height;
-    std::array<CoarseResiduals, 3> residuals;
-    for (std::size_t c = 0; c < 3; ++c) residuals[c] = coarseResiduals(halves, result, c, threads);
-    const MixCells cells(width, height, threads, [&](std::size_t x, std::size_t y) {
-        shared::DenoiseMix sum{0, 0};
-        for (std::size_t c = 0; c < 3; ++c)
-            add(sum, shared::denoiseCoarseMix(residuals[c].a.row(y)[x], residuals[c].b.row(y)[x],
-                                              residuals[c].halfDifference.row(y)[x],
-                                              result.picture.data[(y * width + x) * 3 + c]));
-        return sum;
+    CoarseResiduals residuals(halves, result, threads);
+    const MixCells cells(width, height, threads, [&](std::size_t y, std::vector<shared::DenoiseMix>& mixes) {
+        const float* picture = &result.picture.data[y * width * 3];
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float *a = residuals.a(c).row(y), *b = residuals.b(c).row(y),
+                        *halfDifference = residuals.halfDifference(c).row(y);
+            for (std::size_t x = 0; x < width; ++x)
+                add(mixes[x], shared::denoiseCoarseMix(a[x], b[x], halfDifference[x], picture[x * 3 + c]));
+        }
     });
     parallelFor(threads, height, [&](std::size_t row) {
         const auto y = static_cast<std::uint32_t>(row);
@@ -117,8 +132,8 @@ void giveBack(const Halves& halves, Denoised& result, std::size_t threads) {
             const float share = cells.share(x, y);
             for (std::size_t c = 0; c < 3; ++c) {
                 float &a = result.halfA.pixel(x, y)[c], &b = result.halfB.pixel(x, y)[c];
-                a = shared::denoiseGivenBack(a, share * residuals[c].a.row(y)[x]);
-                b = shared::denoiseGivenBack(b, share * residuals[c].b.row(y)[x]);
+                a = shared::denoiseGivenBack(a, share * residuals.a(c).row(y)[x]);
+                b = shared::denoiseGivenBack(b, share * residuals.b(c).row(y)[x]);
                 result.picture.pixel(x, y)[c] = 0.5f * (a + b);
             }
         }

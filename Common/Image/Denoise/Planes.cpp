@@ -1,26 +1,82 @@
 #include "Common/Image/Denoise/Planes.h"
 
+#include <cassert>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
 #include "Common/Core/Parallel.h"
+#include "Common/Core/SystemMemory.h"
 
 namespace rt::image {
 
-Plane boxMean(const Plane& plane, int reach, std::size_t threads) {
-    const std::size_t width = plane.width(), height = plane.height(), distance = static_cast<std::size_t>(reach);
-    Plane means(width, height);
+Plane::Plane(std::size_t width, std::size_t height) : Plane(PlaneBlock(width, height, 1).next()) {}
+
+namespace {
+
+std::size_t toLargePages(std::size_t bytes) {
+    return (bytes + kLargePage - 1) / kLargePage * kLargePage;
+}
+
+// Zeros; begins with a large page and has whole ones, if it fills one.
+std::shared_ptr<float> zeros(std::size_t bytes) {
+    const bool isLarge = bytes >= kLargePage;
+    std::size_t room = isLarge ? toLargePages(bytes) + kLargePage : std::max<std::size_t>(bytes, 1);
+    const std::shared_ptr<void> memory(std::calloc(room, 1), std::free);
+    if (!memory) throw std::bad_alloc();
+    void* begin = memory.get();
+    if (isLarge) preferLargePages(std::align(kLargePage, toLargePages(bytes), begin, room), toLargePages(bytes));
+    return {memory, static_cast<float*>(begin)};
+}
+
+} // namespace
+
+PlaneBlock::PlaneBlock(std::size_t width, std::size_t height, std::size_t count)
+    : width_(width), height_(height), left_(count), next_(zeros(width * height * count * sizeof(float))) {}
+
+Plane PlaneBlock::next() {
+    assert(left_ > 0);
+    --left_;
+    Plane plane(width_, height_, next_);
+    next_ = std::shared_ptr<float>(next_, next_.get() + width_ * height_);
+    return plane;
+}
+
+void addShifted(const float* values, std::ptrdiff_t shift, std::size_t width, float* __restrict sums) {
+    const std::size_t distance = static_cast<std::size_t>(shift < 0 ? -shift : shift);
+    if (distance >= width) return;
+    const std::size_t count = width - distance;
+    float* to = sums + (shift < 0 ? distance : 0);
+    const float* from = values + (shift < 0 ? 0 : distance);
+    for (std::size_t i = 0; i < count; ++i) to[i] += from[i];
+}
+
+namespace {
+
+void boxMean(const Plane& plane, int reach, std::size_t y, std::vector<float>& columns, float* means) {
+    const std::size_t width = plane.width(), distance = static_cast<std::size_t>(reach);
+    const InReach rows(y, distance, plane.height());
+    const float rowShare = 1.0f / static_cast<float>(rows.count());
+    columns.assign(width, 0.0f);
+    for (std::size_t from = rows.first; from <= rows.last; ++from)
+        addShifted(plane.row(from), 0, width, columns.data());
+    for (int shift = -reach; shift <= reach; ++shift) addShifted(columns.data(), shift, width, means);
+    for (std::size_t x = 0; x < width; ++x)
+        means[x] = means[x] * (1.0f / static_cast<float>(InReach(x, distance, width).count())) * rowShare;
+}
+
+} // namespace
+
+void boxMeans(std::span<Plane> planes, int reach, std::size_t threads) {
+    const std::size_t height = planes.front().height();
+    PlaneBlock block(planes.front().width(), height, planes.size());
+    std::vector<Plane> means(planes.size());
+    for (Plane& plane : means) plane = block.next();
     parallelFor(threads, height, [&](std::size_t y) {
-        std::vector<float> columns(width, 0.0f);
-        const InReach rows(y, distance, height);
-        const float rowShare = 1.0f / static_cast<float>(rows.count());
-        for (std::size_t from = rows.first; from <= rows.last; ++from)
-            for (std::size_t x = 0; x < width; ++x) columns[x] += plane.row(from)[x];
-        for (std::size_t x = 0; x < width; ++x) {
-            const InReach reach(x, distance, width);
-            float sum = 0;
-            for (std::size_t from = reach.first; from <= reach.last; ++from) sum += columns[from];
-            means.row(y)[x] = sum * (1.0f / static_cast<float>(reach.count())) * rowShare;
-        }
+        std::vector<float> columns;
+        for (std::size_t i = 0; i < planes.size(); ++i) boxMean(planes[i], reach, y, columns, means[i].row(y));
     });
-    return means;
+    std::move(means.begin(), means.end(), planes.begin());
 }
 
 } // namespace rt::image

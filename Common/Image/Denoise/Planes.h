@@ -3,23 +3,42 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <vector>
+#include <memory>
+#include <span>
+#include <utility>
 
 namespace rt::image {
 
 class Plane {
   public:
     Plane() = default;
-    Plane(std::size_t width, std::size_t height) : width_(width), height_(height), data_(width * height) {}
+    Plane(std::size_t width, std::size_t height); // of zeros
 
     std::size_t width() const { return width_; }
     std::size_t height() const { return height_; }
-    float* row(std::size_t y) { return data_.data() + y * width_; }
-    const float* row(std::size_t y) const { return data_.data() + y * width_; }
+    float* row(std::size_t y) { return data_.get() + y * width_; }
+    const float* row(std::size_t y) const { return data_.get() + y * width_; }
 
   private:
+    friend class PlaneBlock;
+    Plane(std::size_t width, std::size_t height, std::shared_ptr<float> data)
+        : width_(width), height_(height), data_(std::move(data)) {}
+
     std::size_t width_ = 0, height_ = 0;
-    std::vector<float> data_;
+    std::shared_ptr<float> data_; // of a block that planes may share
+};
+
+// Memory for `count` planes of one size, of zeros, which lives as long as any of these. It is given by the system in
+// large pages, and when it is first written, so by all threads that fill it: planes of their own would take a tenth of
+// the denoiser's time for pages alone.
+class PlaneBlock {
+  public:
+    PlaneBlock(std::size_t width, std::size_t height, std::size_t count);
+    Plane next();
+
+  private:
+    std::size_t width_, height_, left_;
+    std::shared_ptr<float> next_;
 };
 
 using Planes = std::array<Plane, 3>;
@@ -33,7 +52,10 @@ struct InReach {
     bool contains(std::size_t at) const { return at >= first && at <= last; }
 };
 
-// The mean over the pixels of the image in the square of side 2 reach + 1 around each.
-Plane boxMean(const Plane& plane, int reach, std::size_t threads);
+// Adds values[x + shift] to sums[x], for all x of a row where both are in it.
+void addShifted(const float* values, std::ptrdiff_t shift, std::size_t width, float* __restrict sums);
+
+// Of each plane: the mean over the pixels of the image in the square of side 2 reach + 1 around each.
+void boxMeans(std::span<Plane> planes, int reach, std::size_t threads);
 
 } // namespace rt::image

@@ -84,52 +84,17 @@ RT_CALL void weigh(const DenoiseTile& tile, const float* patches, float perSquar
     }
 }
 
-// Sums of weight x radiance x (1, coordinate across, coordinate down), of each channel.
-RT_CALL void sumRadiance(const DenoiseTile& tile, const Reach& reach, Float8 (&sums)[3][3]) {
-    Float8 totals[3], across[3], down[3];
-    for (int c = 0; c < 3; ++c) totals[c] = across[c] = down[c] = broadcast(0);
-    const float *red = tile.radiance[0], *green = tile.radiance[1], *blue = tile.radiance[2];
-    const float* weights = reach.weights;
-    std::ptrdiff_t k = 0;
-    for (int row = 0; row < kDenoiseRowOffsets; ++row) {
-        Float8 r = broadcast(0), g = broadcast(0), b = broadcast(0);
-        for (; k < reach.ends[row]; ++k, weights += kWeightValues) {
-            const std::ptrdiff_t place = reach.places[k];
-            const Float8 weight = load(weights), acrossWeight = load(weights + kLaneCount);
-            r = multiplyAdd(weight, load(red + place), r);
-            g = multiplyAdd(weight, load(green + place), g);
-            b = multiplyAdd(weight, load(blue + place), b);
-            across[0] = multiplyAdd(acrossWeight, load(red + place), across[0]);
-            across[1] = multiplyAdd(acrossWeight, load(green + place), across[1]);
-            across[2] = multiplyAdd(acrossWeight, load(blue + place), across[2]);
-        }
-        const Float8 ofRow[3] = {r, g, b};
-        for (int c = 0; c < 3; ++c) {
-            totals[c] = totals[c] + ofRow[c];
-            down[c] = multiplyAdd(ofRow[c], coordinate(row), down[c]);
-        }
-    }
-    for (int c = 0; c < 3; ++c) {
-        sums[0][c] = totals[c];
-        sums[1][c] = across[c];
-        sums[2][c] = down[c];
-    }
-}
-
 // A row of the normal equations, and those after it, of the surface's features from the `kFeature`th on: sums of weight
-// x this feature x (1, coordinates, each feature from this one on, radiance).
+// x this feature x (1, coordinates, each feature from this one on).
 template <int kFeature, int kCount>
-RT_CALL void sumFeature(const DenoiseTile& tile, const Reach& reach, Float8 (&products)[kCount][kCount],
-                        Float8 (&radiance)[kCount][3]) {
+RT_CALL void sumFeature(const DenoiseTile& tile, const Reach& reach, Float8 (&products)[kCount][kCount]) {
     constexpr int kRow = kCoordinates + kFeature, kLater = kCount - kRow;
-    Float8 total = broadcast(0), across = broadcast(0), down = broadcast(0), sums[kLater], channels[3];
+    Float8 total = broadcast(0), across = broadcast(0), down = broadcast(0), sums[kLater];
     const float* features[kLater];
     for (int i = 0; i < kLater; ++i) {
         sums[i] = broadcast(0);
         features[i] = tile.features[kFeature + i];
     }
-    for (Float8& channel : channels) channel = broadcast(0);
-    const float *red = tile.radiance[0], *green = tile.radiance[1], *blue = tile.radiance[2];
     const float* weights = reach.weights;
     std::ptrdiff_t k = 0;
     for (int row = 0; row < kDenoiseRowOffsets; ++row) {
@@ -145,9 +110,6 @@ RT_CALL void sumFeature(const DenoiseTile& tile, const Reach& reach, Float8 (&pr
 #pragma GCC unroll 10
 #endif
             for (int i = 1; i < kLater; ++i) sums[i] = multiplyAdd(weighed, load(features[i] + place), sums[i]);
-            channels[0] = multiplyAdd(weighed, load(red + place), channels[0]);
-            channels[1] = multiplyAdd(weighed, load(green + place), channels[1]);
-            channels[2] = multiplyAdd(weighed, load(blue + place), channels[2]);
         }
         total = total + ofRow;
         down = multiplyAdd(ofRow, coordinate(row), down);
@@ -156,27 +118,50 @@ RT_CALL void sumFeature(const DenoiseTile& tile, const Reach& reach, Float8 (&pr
     products[kRow][1] = across;
     products[kRow][2] = down;
     for (int i = 0; i < kLater; ++i) products[kRow + i][kRow] = sums[i];
-    for (int c = 0; c < 3; ++c) radiance[kRow][c] = channels[c];
-    if constexpr (kRow + 1 < kCount) sumFeature<kFeature + 1, kCount>(tile, reach, products, radiance);
+    if constexpr (kRow + 1 < kCount) sumFeature<kFeature + 1, kCount>(tile, reach, products);
 }
 
-// The normal equations: lower triangle of the sums of weight x two features, and sums of weight x feature x radiance.
+// The normal equations: lower triangle of the sums of weight x two features.
 template <int kCount>
-RT_FN void sumProducts(const DenoiseTile& tile, const Reach& reach, Float8 (&products)[kCount][kCount],
-                       Float8 (&radiance)[kCount][3]) {
-    Float8 ofCoordinates[kCoordinates][3];
-    sumRadiance(tile, reach, ofCoordinates);
-    for (int i = 0; i < kCoordinates; ++i)
-        for (int c = 0; c < 3; ++c) radiance[i][c] = ofCoordinates[i][c];
+RT_FN void sumProducts(const DenoiseTile& tile, const Reach& reach, Float8 (&products)[kCount][kCount]) {
     products[0][0] = reach.total;
     products[1][0] = reach.across;
     products[1][1] = reach.across2;
     products[2][0] = reach.down;
     products[2][1] = reach.acrossDown;
     products[2][2] = reach.down2;
-    if constexpr (kCount > kCoordinates) sumFeature<0, kCount>(tile, reach, products, radiance);
+    if constexpr (kCount > kCoordinates) sumFeature<0, kCount>(tile, reach, products);
 }
 static_assert(kCoordinates == 3);
+
+// Sums of weight x (solution . features) x radiance, of each channel.
+template <int kCount>
+RT_CALL void sumFitted(const DenoiseTile& tile, const Reach& reach, const Float8 (&solution)[kCount],
+                       Float8 (&sums)[3]) {
+    Float8 r = broadcast(0), g = broadcast(0), b = broadcast(0);
+    const float *red = tile.radiance[0], *green = tile.radiance[1], *blue = tile.radiance[2];
+    const float* weights = reach.weights;
+    std::ptrdiff_t k = 0;
+    for (int row = 0; row < kDenoiseRowOffsets; ++row) {
+        const Float8 ofRow = multiplyAdd(solution[2], coordinate(row), solution[0]);
+        for (; k < reach.ends[row]; ++k, weights += kWeightValues) {
+            const std::ptrdiff_t place = reach.places[k];
+            Float8 fit = ofRow;
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC unroll 10
+#endif
+            for (int i = kCoordinates; i < kCount; ++i)
+                fit = multiplyAdd(solution[i], load(tile.features[i - kCoordinates] + place), fit);
+            const Float8 weighed = multiplyAdd(load(weights + kLaneCount), solution[1], load(weights) * fit);
+            r = multiplyAdd(weighed, load(red + place), r);
+            g = multiplyAdd(weighed, load(green + place), g);
+            b = multiplyAdd(weighed, load(blue + place), b);
+        }
+    }
+    sums[0] = r;
+    sums[1] = g;
+    sums[2] = b;
+}
 
 } // namespace
 } // namespace rt::image
