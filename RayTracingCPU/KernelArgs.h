@@ -64,11 +64,13 @@ struct SurfacePlanes {
     bool isWanted() const { return albedo != nullptr || normal != nullptr || depth != nullptr; }
 };
 
-// Features of one row, averaged over samples 0 .. count - 1 of their own: see Common/Shared/Path/SeenSurfaces.h.
+// Features of one row, averaged over samples 0 .. count - 1 of their own, or if adaptive over the first few where these
+// agree: see Common/Shared/Path/SeenSurfaces.h.
 struct AovTask {
     shared::Features features; // of the scene and the settings: without specialisations, a test is all that they cost
     std::uint32_t y = 0;
     std::uint32_t count = 0;
+    bool isAdaptive = false;
     SurfacePlanes first, wide;
     float* emission = nullptr; // RGB a pixel; null: not wanted
 };

@@ -59,29 +59,49 @@ inline void keepFeatures(const SurfacePlanes& planes, std::uint32_t x, const Sur
     if (planes.depth != nullptr) planes.depth[x] = meanDepth(sums);
 }
 
-// Not worth a specialisation: one first hit a sample, or few more.
-void renderAovs(const KernelContext& context, const AovTask& task) {
+// What one sample of a pixel sees.
+SeenSurfaces seenBy(const KernelContext& context, const AovTask& task, uvec2 pixel, const Sampler& smp) {
     const Features features = task.features;
     const CpuScene& scene = *context.scene;
     const bool looksThrough = task.wide.isWanted() || task.emission != nullptr;
-    for (std::uint32_t x = 0; x < context.params.width; ++x) {
-        SeenSurfaces seen = nothingSeen();
-        Sampler smp = makeSampler(context.params, task.y * context.params.width + x, kFeatureReplicate, 0u);
-        for (; smp.index < task.count; ++smp.index) {
-            const uvec2 pixel(x, task.y);
-            PathState path =
-                startPath(cameraRay(features, context.params, context.camera, pixel, cameraSamples(features, smp)));
-            float length = 0;
-            while (seeSurface(features, scene, context.params, smp,
-                              traceRay(features, scene, smp, 2u * path.vertex, path.ray), looksThrough, path, length,
-                              seen)) {
+    SeenSurfaces seen = nothingSeen();
+    PathState path =
+        startPath(cameraRay(features, context.params, context.camera, pixel, cameraSamples(features, smp)));
+    float length = 0;
+    while (seeSurface(features, scene, context.params, smp, traceRay(features, scene, smp, 2u * path.vertex, path.ray),
+                      looksThrough, path, length, seen)) {
+    }
+    seen.emission += path.radiance;
+    return seen;
+}
+
+// Not worth a specialisation: one first hit a sample, or few more.
+void renderAovs(const KernelContext& context, const AovTask& task) {
+    const std::uint32_t width = context.params.width;
+    const std::uint32_t first = task.isAdaptive ? std::min(kFirstSeenSamples, task.count) : task.count;
+    for (std::uint32_t begin = 0; begin < width; begin += kSeenTogether) {
+        const std::uint32_t end = std::min(begin + kSeenTogether, width);
+        SeenSurfaces sums[kSeenTogether];
+        SurfaceRange range = emptyRange();
+        for (std::uint32_t x = begin; x < end; ++x) {
+            sums[x - begin] = nothingSeen();
+            Sampler smp = makeSampler(context.params, task.y * width + x, kFeatureReplicate, 0u);
+            for (; smp.index < first; ++smp.index) {
+                const SeenSurfaces seen = seenBy(context, task, uvec2(x, task.y), smp);
+                extendRange(seen.first, range);
+                addSeen(seen, sums[x - begin]);
             }
-            seen.emission += path.radiance;
         }
-        const float scale = 1.0f / static_cast<float>(task.count);
-        keepFeatures(task.first, x, seen.first, scale);
-        keepFeatures(task.wide, x, seen.wide, scale);
-        keepFeature(task.emission, x, seen.emission * scale);
+        const std::uint32_t count = isNarrow(range) ? first : task.count;
+        const float scale = 1.0f / static_cast<float>(count);
+        for (std::uint32_t x = begin; x < end; ++x) {
+            Sampler smp = makeSampler(context.params, task.y * width + x, kFeatureReplicate, first);
+            for (; smp.index < count; ++smp.index)
+                addSeen(seenBy(context, task, uvec2(x, task.y), smp), sums[x - begin]);
+            keepFeatures(task.first, x, sums[x - begin].first, scale);
+            keepFeatures(task.wide, x, sums[x - begin].wide, scale);
+            keepFeature(task.emission, x, sums[x - begin].emission * scale);
+        }
     }
 }
 

@@ -36,8 +36,10 @@ app::AovImages renderAovPass(vulkan::VulkanContext& context, const Kernel& kerne
                              std::uint32_t height, const app::AovRequest& request, std::uint32_t samples) {
     app::AovImages images = app::makeAovImages(request, width, height);
     PixelPass pass{width, request.rows > 0 ? request.rows : height, 1, samples};
+    pass.run = shared::kSeenTogether;
     pass.firstRow = request.firstRow;
     pass.looksThrough = request.looksThrough();
+    pass.isAdaptive = request.isAdaptive;
     pass.values = shared::aovValues(pass.looksThrough);
     runPixelPass(context, kernel, pass, [&](std::span<const float> values, std::size_t first) {
         const AovValues pixels{values, pass.values, first};

@@ -181,7 +181,8 @@ GpuDenoiser& GpuEngine::denoiser() {
 }
 
 bool GpuEngine::renderSurfaces(std::uint32_t samples, const vulkan::Buffer& to, const std::atomic<bool>& cancel) {
-    const PixelPass pass{settings_.width, settings_.height, 1, samples, shared::kSurfaceValues};
+    PixelPass pass{settings_.width, settings_.height, 1, samples, shared::kSurfaceValues, shared::kSeenTogether};
+    pass.isAdaptive = true;
     return runPixelPass(context_, kernels_.firstHits(), pass, to, cancel);
 }
 

@@ -1,4 +1,4 @@
-// Runs a kernel of one invocation a pixel over rows of an image, in launches as short as a window needs them.
+// Runs a kernel that goes through samples of pixels over rows of an image, in launches as short as a window needs them.
 #pragma once
 #include <atomic>
 #include <cstddef>
@@ -15,10 +15,12 @@ namespace rt::gpu {
 struct PixelPass {
     std::uint32_t width = 0, rows = 0;
     std::uint32_t maxDepth = 1; // rays of a path, as far as the kernel follows it
-    std::uint32_t samples = 1;  // that an invocation takes
-    std::uint32_t values = 1;   // that it writes: floats
+    std::uint32_t samples = 1;  // of a pixel
+    std::uint32_t values = 1;   // of a pixel that are written: floats
+    std::uint32_t run = 1;      // pixels of an invocation
     std::uint32_t firstRow = 0; // of the image
     bool looksThrough = false;  // of features of surfaces, as PixelLaunch's
+    bool isAdaptive = false;
 };
 
 // Writes the values of the pixels, row by row, to the buffer. False: cancelled. Throws RenderError.

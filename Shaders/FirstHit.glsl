@@ -13,30 +13,50 @@ void writeSurfaces(uint at, SurfaceSums sums, float scale) {
     launch.values.at[at + 6u] = meanDepth(sums);
 }
 
-// What the invocation of one pixel of a launch does.
-void writeFeatures(uint invocation) {
+// What one sample of a pixel sees.
+SeenSurfaces seenBy(RenderParams params, uvec2 pixel, Sampler smp, bool looksThrough) {
     SceneRef scene;
     scene.unused = 0u;
-    RenderParams params = renderParams();
-    PixelSamples samples;
-    if (!beginPixel(invocation, kFeatureReplicate, params, samples)) return;
-    bool looksThrough = launch.looksThrough != 0u;
     SeenSurfaces seen = nothingSeen();
-    for (; samples.smp.index < launch.samples; samples.smp.index++) {
-        CameraSamples u = cameraSamples(kFeatures, samples.smp);
-        PathState path = startPath(cameraRay(kFeatures, params, constants.camera, samples.pixel, u));
-        float distance = 0.0f;
-        bool goesOn = true;
-        while (goesOn && isTraceable(path.ray, kInfinity)) {
-            Hit hit = traceLayers(samples.smp, 2u * path.vertex, path.ray, false, kInfinity);
-            goesOn = seeSurface(kFeatures, scene, params, samples.smp, hit, looksThrough, path, distance, seen);
-        }
-        seen.emission += path.radiance;
+    PathState path = startPath(cameraRay(kFeatures, params, constants.camera, pixel, cameraSamples(kFeatures, smp)));
+    float distance = 0.0f;
+    bool goesOn = true;
+    while (goesOn && isTraceable(path.ray, kInfinity)) {
+        Hit hit = traceLayers(smp, 2u * path.vertex, path.ray, false, kInfinity);
+        goesOn = seeSurface(kFeatures, scene, params, smp, hit, looksThrough, path, distance, seen);
     }
-    float scale = 1.0f / float(launch.samples);
-    uint first = invocation * aovValues(looksThrough);
-    writeSurfaces(first + kFirstValues, seen.first, scale);
+    seen.emission += path.radiance;
+    return seen;
+}
+
+// Adds samples of a pixel and writes their means.
+void writePixel(RenderParams params, uvec2 pixel, uint samples, inout SurfaceRange range) {
+    bool looksThrough = launch.looksThrough != 0u;
+    SeenSurfaces sums = nothingSeen();
+    for (Sampler smp = samplerOf(pixel, kFeatureReplicate, 0u, params); smp.index < samples; smp.index++) {
+        SeenSurfaces seen = seenBy(params, pixel, smp, looksThrough);
+        extendRange(seen.first, range);
+        addSeen(seen, sums);
+    }
+    float scale = 1.0f / float(samples);
+    uint at = placeInLaunch(pixel, kSeenTogether, params) * aovValues(looksThrough);
+    writeSurfaces(at + kFirstValues, sums.first, scale);
     if (!looksThrough) return;
-    writeSurfaces(first + kWideValues, seen.wide, scale);
-    writeVector(first + kEmissionValues, seen.emission * scale);
+    writeSurfaces(at + kWideValues, sums.wide, scale);
+    writeVector(at + kEmissionValues, sums.emission * scale);
+}
+
+// What the invocation of one run does. Where the first samples differ it begins anew: to keep the sums of all pixels
+// would take more registers than these samples take time.
+void writeFeatures(uint invocation) {
+    if (invocation >= launch.runs) return;
+    RenderParams params = renderParams();
+    uvec2 first = firstPixelOf(invocation, kSeenTogether, params);
+    uint end = min(first.x + kSeenTogether, params.width);
+    bool isAdaptive = launch.isAdaptive != 0u && launch.samples > kFirstSeenSamples;
+    SurfaceRange range = emptyRange();
+    if (isAdaptive)
+        for (uint x = first.x; x < end; x++) writePixel(params, uvec2(x, first.y), kFirstSeenSamples, range);
+    if (isAdaptive && isNarrow(range)) return;
+    for (uint x = first.x; x < end; x++) writePixel(params, uvec2(x, first.y), launch.samples, range);
 }

@@ -1,19 +1,21 @@
-// How shaders of one invocation a pixel begin, which go through the pixel's first samples. The includer provides
-// traceRay().
+// How shaders begin that go through the first samples of pixels. The includer provides traceRay().
 #include "SceneAccess.glsl"
 #include "Common/Shared/Path/PathStep.h"
 
 layout(push_constant, scalar) uniform Launch { PixelLaunch launch; };
 
-struct PixelSamples {
-    uvec2 pixel;
-    Sampler smp; // of the next sample
-};
+// The first pixel of an invocation's run; `invocation` may be beyond the last run.
+uvec2 firstPixelOf(uint invocation, uint pixelsOfRun, RenderParams params) {
+    return firstPixelOfRun(launch.firstRun + invocation, params.width, pixelsOfRun);
+}
 
-// False: there is no pixel for this invocation. `replicate`: whose samples these are.
-bool beginPixel(uint invocation, uint replicate, RenderParams params, out PixelSamples samples) {
-    uint index = launch.firstPixel + invocation;
-    samples.pixel = uvec2(index % params.width, index / params.width);
-    samples.smp = makeSampler(params, index, replicate, 0u);
-    return invocation < launch.pixels;
+// Which of the launch's pixels this one is.
+uint placeInLaunch(uvec2 pixel, uint pixelsOfRun, RenderParams params) {
+    uvec2 first = firstPixelOf(0u, pixelsOfRun, params);
+    return (pixel.y - first.y) * params.width + pixel.x - first.x;
+}
+
+// Before the first sample. `replicate`: whose samples these are.
+Sampler samplerOf(uvec2 pixel, uint replicate, uint firstSample, RenderParams params) {
+    return makeSampler(params, pixel.y * params.width + pixel.x, replicate, firstSample);
 }

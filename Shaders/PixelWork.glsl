@@ -22,11 +22,9 @@ struct Work {
 // There is no path to go on with.
 bool resumePath(uint invocation, RenderParams params, inout Work work, inout PathState path, inout DirectLight direct,
                 inout TechniqueStep step, inout bool goesOn) {
-    PixelSamples samples;
-    bool isPixel = beginPixel(invocation, 0u, params, samples);
-    work.pixel = samples.pixel;
-    work.next = samples.smp;
-    if (!isPixel) work.next.index = launch.samples;
+    work.pixel = firstPixelOf(invocation, 1u, params);
+    work.next = samplerOf(work.pixel, 0u, 0u, params);
+    if (invocation >= launch.runs) work.next.index = launch.samples;
     work.begun = 0u;
 #ifdef RT_TIME
     work.start = clock2x32ARB().x;
@@ -66,7 +64,7 @@ void endPath(bool ends, uint invocation, RenderParams params, inout Work work, i
 }
 
 void endWork(uint invocation, Work work, uint finished, uint scattered, uint shadow, uint nonfinite) {
-    if (invocation >= launch.pixels) return;
+    if (invocation >= launch.runs) return;
     uint cost = work.begun + scattered + shadow;
 #ifdef RT_TIME
     cost = cost > 0u ? clock2x32ARB().x - work.start : 0u; // the paths must have been traced

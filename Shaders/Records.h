@@ -282,14 +282,23 @@ RT_FN uvec2 pixelInTile(uint tile, uint tilePixel) {
 
 RT_MUTABLE_ARRAY(MutableFloatArray, float)
 
-// Push constants of PixelPass.glsl: pixels firstPixel and following, row by row, one invocation each.
+// Push constants of PixelPass.glsl: of an image's runs, which are so many pixels of a row as an invocation does, or what
+// is left of the row, firstRun and following.
 struct PixelLaunch {
     MutableFloatArray values; // of the first of these pixels, then of the others; features: aovValues() each
-    uint firstPixel;
-    uint pixels;
+    uint firstRun;
+    uint runs;
     uint samples;
     uint looksThrough; // features: 0: nothing but kFirstValues is wanted
+    uint isAdaptive;   // features: 1: fewer samples where these agree (SeenSurfaces.h)
 };
+RT_FN uint runsOfRow(uint width, uint pixelsOfRun) {
+    return (width + pixelsOfRun - 1u) / pixelsOfRun;
+}
+RT_FN uvec2 firstPixelOfRun(uint run, uint width, uint pixelsOfRun) {
+    uint runs = runsOfRow(width, pixelsOfRun);
+    return uvec2(run % runs * pixelsOfRun, run / runs);
+}
 const uint kSurfaceValues = 7u;          // albedo, normal and depth
 const uint kFirstValues = 0u;            // where those of the first surface begin
 const uint kWideValues = kSurfaceValues; // of the first that scatters widely

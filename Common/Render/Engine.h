@@ -123,6 +123,7 @@ struct AovRequest : SurfaceRequest {      // of the first surface that is hit
     std::uint32_t firstRow = 0, rows = 0; // that the images are to have, and no others; 0: all
     SurfaceRequest wide{};                // of the first that scatters widely, through mirrors and clear glass
     bool emission = false;                // radiance of lights and sky in sight, in mirrors and glass too
+    bool isAdaptive = false;              // few samples where these see the same first surface, as the denoiser wants it
     bool looksThrough() const { return wide.any() || emission; }
     bool any() const { return SurfaceRequest::any() || looksThrough(); }
 };
@@ -193,7 +194,7 @@ struct Engine {
     virtual TilesToPack takeTiles(const image::TileList& tiles);
     // film() resolved, but for rounding; it may cost far less than the film on the host.
     virtual Snapshot snapshot();
-    // Averages over the first `samples` samples of each pixel.
+    // Averages over the first `samples` samples of each pixel, at most where the request is adaptive.
     virtual AovImages renderAovs(const AovRequest& request, std::uint32_t samples) = 0;
     // What each pixel costs, averaged over the first `samples` samples; one channel. The film stays as it is. An engine
     // that does not know the cost returns an image without pixels.

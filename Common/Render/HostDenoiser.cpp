@@ -81,7 +81,9 @@ class HostDenoiser final : public PictureDenoiser {
             if (cancel.load(std::memory_order_relaxed)) return false;
             step = std::min(step, size.height - comingRows_);
             const Stopwatch watch;
-            const AovImages rows = engine_.renderAovs({{true, true, true}, comingRows_, step}, samples);
+            AovRequest request{{true, true, true}, comingRows_, step};
+            request.isAdaptive = true;
+            const AovImages rows = engine_.renderAovs(request, samples);
             putRows(rows.albedo, comingRows_, coming_.albedo);
             putRows(rows.normal, comingRows_, coming_.normal);
             putRows(rows.depth, comingRows_, coming_.depth);

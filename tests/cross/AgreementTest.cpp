@@ -63,17 +63,27 @@ class EnginePair {
         return {renderImage(*cpu_, *scene_, settings), renderImage(*gpu_, *scene_, settings)};
     }
 
-    // First-hit features of what was rendered last.
+    // Features of what was rendered last.
     std::vector<Pair> features() {
         app::AovRequest all{{true, true, true}};
         all.wide = {true, true, true};
         all.emission = true;
         app::AovImages cpu = cpu_->renderAovs(all, 4);
         app::AovImages gpu = gpu_->renderAovs(all, 4);
-        return {
-            {cpu.albedo, gpu.albedo},           {cpu.normal, gpu.normal},           {cpu.depth, gpu.depth},
-            {cpu.wide.albedo, gpu.wide.albedo}, {cpu.wide.normal, gpu.wide.normal}, {cpu.wide.depth, gpu.wide.depth},
-            {cpu.emission, gpu.emission}};
+        app::AovRequest adaptive{{true, true, true}};
+        adaptive.isAdaptive = true;
+        app::AovImages cpuAdaptive = cpu_->renderAovs(adaptive, 8);
+        app::AovImages gpuAdaptive = gpu_->renderAovs(adaptive, 8);
+        return {{cpu.albedo, gpu.albedo},
+                {cpu.normal, gpu.normal},
+                {cpu.depth, gpu.depth},
+                {cpu.wide.albedo, gpu.wide.albedo},
+                {cpu.wide.normal, gpu.wide.normal},
+                {cpu.wide.depth, gpu.wide.depth},
+                {cpu.emission, gpu.emission},
+                {cpuAdaptive.albedo, gpuAdaptive.albedo},
+                {cpuAdaptive.normal, gpuAdaptive.normal},
+                {cpuAdaptive.depth, gpuAdaptive.depth}};
     }
 
   private:

@@ -106,7 +106,9 @@ TEST_F(GpuDenoiseTest, MakesFeaturesOnTheDevice) {
     const image::DenoiseInput halves = image::filmHalves(engine->film());
     const auto expectOwnFeatures = [&] {
         image::DenoiseInput input = halves;
-        app::AovImages features = engine->renderAovs({{true, true, true}}, app::kAovSamples);
+        app::AovRequest request{{true, true, true}};
+        request.isAdaptive = true;
+        app::AovImages features = engine->renderAovs(request, app::kAovSamples);
         input.albedo = std::move(features.albedo);
         input.normal = std::move(features.normal);
         input.depth = std::move(features.depth);

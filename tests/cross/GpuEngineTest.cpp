@@ -298,6 +298,7 @@ TEST_P(GpuEngineTest, DepthIsThatOfWhatIsHit) {
     expectDepthOfWhatIsHit(*engine);
     expectSurfacesInMirrors(*engine);
     expectFeaturesOfTheirOwnSamples(*engine);
+    expectFewerSamplesWhereTheyAgree(*engine);
     EXPECT_EQ(device().validationMessages(), 0u);
 }
 

@@ -132,6 +132,10 @@ TEST(CpuEngine, FeaturesKnowNothingOfThePicturesNoise) {
     expectFeaturesOfTheirOwnSamples(*cpu::makeCpuEngine({}));
 }
 
+TEST(CpuEngine, FeaturesTakeFewerSamplesWhereTheyAgree) {
+    expectFewerSamplesWhereTheyAgree(*cpu::makeCpuEngine({}));
+}
+
 // Lengths in binary floating point scale exactly by powers of two: any absolute tolerance would show.
 TEST(CpuEngine, ScalingByAPowerOfTwoIsExact) {
     const scene::SceneDesc desc = scene::findBuiltinScene("cornell-box-lights");

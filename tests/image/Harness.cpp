@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "Common/Bench/Stability.h"
 #include "Common/Render/Names.h"
 #include "Common/Render/RenderParams.h"
+#include "Common/Shared/Path/SeenSurfaces.h"
 #include "tests/image/AnalyticScenes.h"
 
 namespace rt::test {
@@ -240,6 +242,39 @@ void expectSurfacesInMirrors(app::Engine& engine) {
             EXPECT_NEAR(images.emission.pixel(x, y)[2], kOfMirror * kEmission, 1e-5f);
             EXPECT_NEAR(images.wide.normal.pixel(x, y)[2], -1, 1e-6f); // it faces the ray, which comes from -z
         }
+}
+
+// A square of one albedo; where the runs of pixels that are sampled together have neither edges nor a depth that varies
+// much, four samples of each are enough.
+void expectFewerSamplesWhereTheyAgree(app::Engine& engine) {
+    constexpr std::uint32_t kSide = 64, kFew = shared::kFirstSeenSamples, kAll = 16;
+    SceneDesc desc = emptyScene({0, 0, 0}, {0, 0, -1}, 60);
+    desc.materials["grey"] = lambertian(0.5);
+    desc.objects.push_back({scene::QuadDesc{{-0.26, -0.26, -1}, {0.52, 0, 0}, {0, 0.52, 0}, "grey"}});
+    const auto compiled = scene::compileScene(desc);
+    engine.setScene(compiled, nullptr);
+    engine.reset(compiled->camera, smallSettings(kSide, 2));
+    app::AovRequest request{{true, true, true}};
+    const app::AovImages few = engine.renderAovs(request, kFew), all = engine.renderAovs(request, kAll);
+    request.isAdaptive = true;
+    const app::AovImages adaptive = engine.renderAovs(request, kAll);
+    std::uint32_t runsOfFew = 0;
+    for (std::uint32_t y = 0; y < kSide; ++y)
+        for (std::uint32_t x = 0; x < kSide; x += shared::kSeenTogether) {
+            const auto ofRun = [&](const image::Image& image) {
+                return std::span(image.pixel(x, y), std::size_t{image.channels} * shared::kSeenTogether);
+            };
+            const auto isOf = [&](const app::AovImages& other) {
+                return std::ranges::equal(ofRun(adaptive.albedo), ofRun(other.albedo)) &&
+                       std::ranges::equal(ofRun(adaptive.normal), ofRun(other.normal)) &&
+                       std::ranges::equal(ofRun(adaptive.depth), ofRun(other.depth));
+            };
+            const auto [least, most] = std::ranges::minmax(ofRun(few.albedo));
+            const bool isCut = most > 0 && least < 0.5f;
+            EXPECT_TRUE(isCut ? isOf(all) : isOf(few)) << x << " " << y;
+            runsOfFew += !isOf(all);
+        }
+    EXPECT_GT(runsOfFew, 100u); // of the square, whose depth varies, 200 of all 1024
 }
 
 // The square's edges are parallel to the image's, so that what it covers of a pixel is a product of two lengths.

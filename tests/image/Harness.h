@@ -61,6 +61,10 @@ void expectSurfacesInMirrors(app::Engine& engine);
 // Asserts that the noise of features is not that of the picture: of how much of a pixel a bright square covers.
 void expectFeaturesOfTheirOwnSamples(app::Engine& engine);
 
+// Asserts that an adaptive request's features are means over few samples where those of pixels beside one another agree,
+// elsewhere over all.
+void expectFewerSamplesWhereTheyAgree(app::Engine& engine);
+
 // Asserts that every sample is finite.
 image::Image renderImage(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings);
 

@@ -30,7 +30,10 @@ image::Image placed(const image::Image& part, const Region& region, std::uint32_
 
 // Also where the render itself has fewer samples: they cost little, and noise in features is noise in the picture.
 void FilmDenoiser::renderFeatures() {
-    if (!features_) features_ = engine_.renderAovs({{true, true, true}}, kAovSamples);
+    if (features_) return;
+    AovRequest request{{true, true, true}};
+    request.isAdaptive = true;
+    features_ = engine_.renderAovs(request, kAovSamples);
 }
 
 image::Denoised FilmDenoiser::denoiseByLibrary(const image::Film& film) {

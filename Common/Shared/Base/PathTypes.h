@@ -48,6 +48,9 @@ const uint kEmissionApart = 1u;             // not at all: edge rays count it
 const uint kEmissionApartBehindGlossy = 2u; // nor behind a glossy mirror, whose reflected light they sample as well
 const uint kEmissionOfEdgeRay = 3u;         // in full: the path is an edge ray
 
+// Pixels of a row whose features are sampled together, see SeenSurfaces.h.
+const uint kSeenTogether = 4u;
+
 // What a step settles of a path that is shared.
 struct SharedPart {
     vec3 prefix;     // at its second vertex: the radiance that it had brought before

@@ -52,9 +52,69 @@ RT_FN void addSurface(vec3 albedo, vec3 normal, float depth, RT_INOUT(SurfaceSum
     sums.hits++;
 }
 
+RT_FN void addSurfaces(RT_IN(SurfaceSums) more, RT_INOUT(SurfaceSums) sums) {
+    sums.albedo += more.albedo;
+    sums.normal += more.normal;
+    sums.depth += more.depth;
+    sums.hits += more.hits;
+}
+
+RT_FN void addSeen(RT_IN(SeenSurfaces) more, RT_INOUT(SeenSurfaces) seen) {
+    addSurfaces(more.first, seen.first);
+    addSurfaces(more.wide, seen.wide);
+    seen.emission += more.emission;
+}
+
 // The mean depth, of the samples that have met a surface; 0 if none has.
 RT_FN float meanDepth(RT_IN(SurfaceSums) sums) {
     return sums.hits > 0u ? sums.depth / float(sums.hits) : 0.0f;
+}
+
+// Most pixels see one surface and no edge of it or of its texture: few samples tell their features. The first ones are
+// taken of some pixels beside one another in a row, so that an edge, or a texture finer than a pixel, is hardly missed
+// by all of them; the others where these differ. kSeenTogether: the pixels.
+const uint kFirstSeenSamples = 4u; // of each
+
+// Between what the first surfaces of some samples lie.
+struct SurfaceRange {
+    vec3 minAlbedo, maxAlbedo;
+    vec3 minNormal, maxNormal;
+    float minDepth, maxDepth;
+    uint samples, hits;
+};
+
+RT_FN SurfaceRange emptyRange() {
+    SurfaceRange range;
+    range.minAlbedo = range.minNormal = vec3(kInfinity, kInfinity, kInfinity);
+    range.maxAlbedo = range.maxNormal = -range.minAlbedo;
+    range.minDepth = kInfinity;
+    range.maxDepth = -kInfinity;
+    range.samples = range.hits = 0u;
+    return range;
+}
+
+// By what one sample has seen first.
+RT_FN void extendRange(RT_IN(SurfaceSums) seen, RT_INOUT(SurfaceRange) range) {
+    range.samples++;
+    if (seen.hits == 0u) return;
+    range.hits++;
+    range.minAlbedo = min(range.minAlbedo, seen.albedo);
+    range.maxAlbedo = max(range.maxAlbedo, seen.albedo);
+    range.minNormal = min(range.minNormal, seen.normal);
+    range.maxNormal = max(range.maxNormal, seen.normal);
+    range.minDepth = min(range.minDepth, seen.depth);
+    range.maxDepth = max(range.maxDepth, seen.depth);
+}
+
+// Whether the means of these samples hardly depend on their number.
+RT_FN bool isNarrow(RT_IN(SurfaceRange) range) {
+    const float kAlbedo = 0.01f; // what the denoiser takes for nothing is a tenth of a step of 1 (DenoiseFit.h)
+    const float kNormal = 0.2f;
+    const float kDepth = 0.1f; // relative
+    if (range.hits == 0u) return true;
+    return range.hits == range.samples && maxComponent(range.maxAlbedo - range.minAlbedo) <= kAlbedo &&
+           maxComponent(range.maxNormal - range.minNormal) <= kNormal &&
+           range.maxDepth - range.minDepth <= kDepth * range.maxDepth;
 }
 
 // Adds the surface that the path's ray has hit; `before`: the length of the path up to there, which grows. True: it
