@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "Common/Core/Parallel.h"
+
 namespace rt::image {
 
 ImageRows::ImageRows(const Image& image)
@@ -10,9 +12,12 @@ ImageRows::ImageRows(const Image& image)
           std::copy_n(image.pixel(0, y), row.size(), row.begin());
       }) {}
 
-Image toImage(const ImageRows& rows) {
+Image toImage(const ImageRows& rows, std::size_t threads) {
     Image image(rows.width, rows.height, rows.channels);
-    for (std::uint32_t y = 0; y < rows.height; ++y) rows.read(y, {image.pixel(0, y), rows.rowValues()});
+    parallelFor(threads, rows.height, [&](std::size_t row) {
+        const auto y = static_cast<std::uint32_t>(row);
+        rows.read(y, {image.pixel(0, y), rows.rowValues()});
+    });
     return image;
 }
 

@@ -26,8 +26,8 @@ struct ImageRows {
     std::size_t rowValues() const { return std::size_t{width} * channels; }
 };
 
-// All rows at once.
-Image toImage(const ImageRows& rows);
+// All rows, read by so many threads at a time (0: as many as the machine has).
+Image toImage(const ImageRows& rows, std::size_t threads = 1);
 
 // The same image with every value changed; `change` is called for one value at a time.
 ImageRows mapped(ImageRows rows, std::function<float(float)> change);

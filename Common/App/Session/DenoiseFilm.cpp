@@ -1,6 +1,7 @@
 #include "Common/App/Session/DenoiseFilm.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "Common/App/Session/OpenImageDenoise.h"
@@ -19,6 +20,15 @@ image::Image cropped(const image::Image& image, const Region& region) {
     return part;
 }
 
+image::DenoiseInput cropped(const image::DenoiseInput& input, const Options& options) {
+    image::DenoiseInput part;
+    part.samplesOfHalf = options.settings.spp / 2; // those outside have none
+    for (const auto member : {&image::DenoiseInput::halfA, &image::DenoiseInput::halfB, &image::DenoiseInput::albedo,
+                              &image::DenoiseInput::normal, &image::DenoiseInput::depth})
+        part.*member = cropped(input.*member, *options.region);
+    return part;
+}
+
 image::Image placed(const image::Image& part, const Region& region, std::uint32_t width, std::uint32_t height) {
     image::Image image(width, height, part.channels);
     for (std::uint32_t y = 0; y < part.height; ++y)
@@ -32,7 +42,7 @@ image::Image placed(const image::Image& part, const Region& region, std::uint32_
 void FilmDenoiser::renderFeatures() {
     if (features_) return;
     AovRequest request{{true, true, true}};
-    request.isAdaptive = true;
+    request.isAdaptive = !options_.denoisesByOidn; // which gets what files have
     features_ = engine_.renderAovs(request, kAovSamples);
 }
 
@@ -58,15 +68,17 @@ DenoisedPicture FilmDenoiser::filter(image::DenoiseInput& input) {
     if (!options_.region)
         if (auto made = engine_.denoiseWhole(input, details)) return std::move(*made);
     renderFeatures();
-    input.albedo = features_->albedo;
-    input.normal = features_->normal;
-    input.depth = features_->depth;
-    if (options_.region) {
-        input.samplesOfHalf = options_.settings.spp / 2; // those outside have none
-        for (image::Image* image : {&input.halfA, &input.halfB, &input.albedo, &input.normal, &input.depth})
-            *image = cropped(*image, *options_.region);
-    }
-    return engine_.denoiseHalves(input, details, options_.threads);
+    // Lent, not copied: fresh memory takes longer than to fill it.
+    std::tie(input.albedo, input.normal, input.depth) =
+        std::tuple(std::move(features_->albedo), std::move(features_->normal), std::move(features_->depth));
+    features_.reset();
+    std::optional<image::DenoiseInput> part;
+    if (options_.region) part = cropped(input, options_);
+    DenoisedPicture result = engine_.denoiseHalves(part ? *part : input, details, options_.threads);
+    features_.emplace();
+    std::tie(features_->albedo, features_->normal, features_->depth) =
+        std::tuple(std::move(input.albedo), std::move(input.normal), std::move(input.depth));
+    return result;
 }
 
 image::Denoised FilmDenoiser::denoise(const image::Film& film) {
@@ -74,7 +86,7 @@ image::Denoised FilmDenoiser::denoise(const image::Film& film) {
     const Stopwatch watch;
     const Interruptible byNobody(nullptr); // of a render that was stopped, too, what there is is filtered
     if (options_.denoisesByOidn) return denoiseByLibrary(film);
-    image::DenoiseInput input = image::filmHalves(film);
+    image::DenoiseInput input = image::filmHalves(film, options_.threads);
     DenoisedPicture filtered = filter(input);
     image::Denoised& images = filtered.images;
     if (options_.region)

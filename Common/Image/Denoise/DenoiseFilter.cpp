@@ -7,7 +7,6 @@
 #include "Common/Core/Interruption.h"
 #include "Common/Core/KernelSets.h"
 #include "Common/Core/Parallel.h"
-#include "Common/Core/SystemMemory.h"
 #include "Common/Image/Denoise/DenoiseKernel.h"
 #include "Common/Image/Denoise/FeatureSpace.h"
 
@@ -28,23 +27,25 @@ DenoiseKernels bestKernels() {
 
 // ---- features ------------------------------------------------------------------------------------------------------
 
-std::vector<SurfaceFeatures> surfaceFeatures(const DenoiseInput& input, std::size_t pixels, std::size_t threads) {
-    constexpr std::size_t kPixels = 4096; // at a time
-    std::vector<SurfaceFeatures> features;
-    resizeLarge(features, pixels);
-    const float depthUnit = usualDepth(input.depth);
-    parallelChunks(threads, pixels, kPixels, [&](std::size_t first, std::size_t end) {
-        for (std::size_t i = first; i < end; ++i) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                if (!input.albedo.data.empty()) features[i][c] = shared::denoiseAlbedo(input.albedo.data[3 * i + c]);
-                if (!input.normal.data.empty())
-                    features[i][3 + c] = shared::denoiseNormal(input.normal.data[3 * i + c]);
-            }
-            if (!input.depth.data.empty()) features[i][6] = shared::denoiseDepth(input.depth.data[i], depthUnit);
+// Of the surfaces in sight of an input, scaled.
+class Surfaces {
+  public:
+    explicit Surfaces(const DenoiseInput& input) : input_(input), depthUnit_(usualDepth(input.depth)) {}
+
+    SurfaceFeatures at(std::uint32_t x, std::uint32_t y) const {
+        SurfaceFeatures features{};
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (!input_.albedo.data.empty()) features[c] = shared::denoiseAlbedo(input_.albedo.pixel(x, y)[c]);
+            if (!input_.normal.data.empty()) features[3 + c] = shared::denoiseNormal(input_.normal.pixel(x, y)[c]);
         }
-    });
-    return features;
-}
+        if (!input_.depth.data.empty()) features[6] = shared::denoiseDepth(*input_.depth.pixel(x, y), depthUnit_);
+        return features;
+    }
+
+  private:
+    const DenoiseInput& input_;
+    float depthUnit_;
+};
 
 // ---- guides --------------------------------------------------------------------------------------------------------
 
@@ -101,9 +102,9 @@ void makeGuides(Halves& halves, const DenoiseKernels& kernels, std::size_t threa
 // One thread's tile: the planes that the kernel reads, with their margins, and what it writes.
 class TileFilter {
   public:
-    TileFilter(Halves& halves, const std::vector<SurfaceFeatures>& features, const DenoiseKernels& kernels)
+    TileFilter(Halves& halves, const Surfaces& surfaces, const DenoiseKernels& kernels)
         : halves_(halves),
-          features_(features),
+          surfaces_(surfaces),
           kernels_(kernels),
           width_(static_cast<int>(halves.variance.width())),
           height_(static_cast<int>(halves.variance.height())) {}
@@ -175,22 +176,21 @@ class TileFilter {
     void loadFeatures(DenoiseTile& tile) {
         inReach_.clear();
         forEachPixel([&](int, int x, int y) {
-            if (isInside(x, y)) inReach_.push_back(featuresAt(x, y));
+            if (isInside(x, y))
+                inReach_.push_back(surfaces_.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)));
         });
         const FeatureSpace space = principalFeatures(inReach_);
         tile.featureCount = static_cast<int>(space.axes.size());
         for (int i = 0; i < tile.featureCount; ++i) tile.features[i] = plane(kFeatures + i);
         tile.inside = plane(kInside);
+        auto features = inReach_.begin();
         forEachPixel([&](int place, int x, int y) {
             const bool inside = isInside(x, y);
             plane(kInside)[place] = inside ? 1.0f : 0.0f;
             for (std::size_t axis = 0; axis < space.axes.size(); ++axis)
-                plane(kFeatures + static_cast<int>(axis))[place] =
-                    inside ? space.coordinate(featuresAt(x, y), axis) : 0.0f;
+                plane(kFeatures + static_cast<int>(axis))[place] = inside ? space.coordinate(*features, axis) : 0.0f;
+            if (inside) ++features;
         });
-    }
-    const SurfaceFeatures& featuresAt(int x, int y) const {
-        return features_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
     }
 
     void keep(const DenoiseTile& tile, std::size_t half) const {
@@ -207,7 +207,7 @@ class TileFilter {
     }
 
     Halves& halves_;
-    const std::vector<SurfaceFeatures>& features_;
+    const Surfaces& surfaces_;
     DenoiseKernels kernels_;
     int width_, height_;
     int left_ = 0, top_ = 0;
@@ -236,7 +236,7 @@ float usualDepth(const Image& depth) {
 
 void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads) {
     const std::size_t width = halves.variance.width(), height = halves.variance.height();
-    const std::vector<SurfaceFeatures> features = surfaceFeatures(input, width * height, threads);
+    const Surfaces surfaces(input);
     PlaneBlock block(width, height, std::size_t{kDenoiseBandwidths} * 2 * 5);
     for (std::size_t i = 0; i < kDenoiseBandwidths; ++i)
         for (std::size_t half = 0; half < 2; ++half) {
@@ -250,13 +250,17 @@ void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads
     if (!halves.hasRawGuides()) makeGuides(halves, kernels, threads);
     // Some tiles at a time: fewer than a row has, which one thread would still filter when others are done.
     parallelChunks(threads, columns * rows, 8, [&](std::size_t first, std::size_t end) {
-        TileFilter filter(halves, features, kernels);
+        TileFilter filter(halves, surfaces, kernels);
         for (std::size_t tile = first; tile < end; ++tile) {
             interruptionPoint();
             filter.filter(static_cast<int>(tile % columns) * kDenoiseTile,
                           static_cast<int>(tile / columns) * kDenoiseTile);
         }
     });
+    for (Half& half : halves.half) { // what is made next takes their memory
+        half.guide = {};
+        half.guideVariance = {};
+    }
 }
 
 } // namespace rt::image

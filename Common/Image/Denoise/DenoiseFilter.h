@@ -41,7 +41,7 @@ float usualDepth(const Image& depth);
 // The number of that one among `seen` depths in order.
 std::size_t usualRank(std::size_t seen);
 
-// Fills what is filtered, and the factors; before that, guides.
+// Fills what is filtered, and the factors; guides are made for that, and given up.
 void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads);
 
 } // namespace rt::image

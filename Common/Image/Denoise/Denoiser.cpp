@@ -40,15 +40,15 @@ Half makeHalf(const Image& image, std::size_t threads) {
 
 // ---- choosing ------------------------------------------------------------------------------------------------------
 
-// What one candidate after another needs to find its errors.
+// What one candidate after another needs to find its errors: of single pixels, what is summed of them, and means.
 struct ErrorPlanes {
-    Plane errors, rowSums, otherSums;
+    Plane errors, rowSums, otherSums, means;
 };
 
 // Of each pixel by the means around it: sums of rows, with and without what is nearest, then of these.
-void averageErrors(ErrorPlanes& planes, std::size_t threads, Plane& means) {
+void averageErrors(ErrorPlanes& planes, std::size_t threads) {
     constexpr int kReach = shared::kDenoiseChoiceReach, kOwn = shared::kDenoiseOwnReach;
-    const std::size_t width = means.width(), height = means.height();
+    const std::size_t width = planes.errors.width(), height = planes.errors.height();
     parallelFor(threads, height, [&](std::size_t y) {
         const float* errors = planes.errors.row(y);
         float *all = planes.rowSums.row(y), *others = planes.otherSums.row(y);
@@ -62,7 +62,8 @@ void averageErrors(ErrorPlanes& planes, std::size_t threads, Plane& means) {
     parallelFor(threads, height, [&](std::size_t y) {
         const InReach rows(y, kReach, height), ownRows(y, kOwn, height);
         std::vector<float> others(width, 0.0f);
-        float* all = means.row(y);
+        float* all = planes.means.row(y);
+        std::fill_n(all, width, 0.0f);
         for (std::size_t from = rows.first; from <= rows.last; ++from) {
             addShifted(planes.rowSums.row(from), 0, width, all);
             addShifted((ownRows.contains(from) ? planes.otherSums : planes.rowSums).row(from), 0, width, others.data());
@@ -109,13 +110,11 @@ void rawErrors(const Halves& halves, std::size_t y, float* errors) {
 Choice choose(const Halves& halves, std::size_t threads) {
     const std::size_t width = halves.variance.width(), height = halves.variance.height();
     const std::size_t candidates = halves.mayStayRaw() ? kDenoiseCandidates : kRawCandidate;
-    PlaneBlock results(width, height, kDenoiseCandidates), block(width, height, kDenoiseCandidates + 3);
-    ErrorPlanes planes{block.next(), block.next(), block.next()};
-    Choice means, chosen;
-    for (std::size_t i = 0; i < kDenoiseCandidates; ++i) {
-        means[i] = block.next();
-        chosen[i] = results.next();
-    }
+    PlaneBlock results(width, height, kDenoiseCandidates), block(width, height, 6);
+    Choice chosen;
+    for (Plane& plane : chosen) plane = results.next();
+    ErrorPlanes planes{block.next(), block.next(), block.next(), block.next()};
+    Plane best = block.next(), least = block.next(); // candidate, and its error
     for (std::size_t i = 0; i < candidates; ++i) {
         parallelFor(threads, height, [&](std::size_t y) {
             float* errors = planes.errors.row(y);
@@ -125,15 +124,17 @@ Choice choose(const Halves& halves, std::size_t threads) {
             else
                 filterErrors(halves, i, y, errors);
         });
-        averageErrors(planes, threads, means[i]);
+        averageErrors(planes, threads);
+        parallelFor(threads, height, [&](std::size_t y) {
+            for (std::size_t x = 0; x < width; ++x)
+                if (const float error = planes.means.row(y)[x]; i == 0 || error < least.row(y)[x]) {
+                    least.row(y)[x] = error;
+                    best.row(y)[x] = static_cast<float>(i);
+                }
+        });
     }
     parallelFor(threads, height, [&](std::size_t y) {
-        for (std::size_t x = 0; x < width; ++x) {
-            std::size_t best = 0;
-            for (std::size_t i = 1; i < candidates; ++i)
-                if (means[i].row(y)[x] < means[best].row(y)[x]) best = i;
-            chosen[best].row(y)[x] = 1;
-        }
+        for (std::size_t x = 0; x < width; ++x) chosen[static_cast<std::size_t>(best.row(y)[x])].row(y)[x] = 1;
     });
     return chosen;
 }

@@ -24,10 +24,10 @@ std::string whyNoHalves(const Film& film) {
     return {};
 }
 
-DenoiseInput filmHalves(const Film& film) {
+DenoiseInput filmHalves(const Film& film, std::size_t threads) {
     DenoiseInput input;
-    input.halfA = toImage(halfRows(film, 0));
-    input.halfB = toImage(halfRows(film, 1));
+    input.halfA = toImage(halfRows(film, 0), threads);
+    input.halfB = toImage(halfRows(film, 1), threads);
     input.samplesOfHalf = std::uint64_t{film.minReplicateSamples()} * (film.desc().replicates / 2);
     return input;
 }

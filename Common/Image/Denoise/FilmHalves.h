@@ -12,6 +12,6 @@ namespace rt::image {
 std::string whyNoHalves(const Film& film);
 
 // Its even and its odd replicates; without features. Requires that it has both.
-DenoiseInput filmHalves(const Film& film);
+DenoiseInput filmHalves(const Film& film, std::size_t threads = 0);
 
 } // namespace rt::image

@@ -60,32 +60,31 @@ void add(shared::DenoiseMix& sum, const shared::DenoiseMix& mix) {
     sum.change += mix.change;
 }
 
-// Means over the pixels around each: of what the filter took away from both halves, and of half of the difference of the
-// raw ones.
+// Of one channel, means over the pixels around each: of what the filter took away from both halves, and of half of the
+// difference of the raw ones.
 struct CoarseResiduals {
-    std::array<Plane, 9> planes;
-    CoarseResiduals(const Halves& halves, const Denoised& filtered, std::size_t threads);
+    std::array<Plane, 3> planes;
+    Plane& a() { return planes[0]; }
+    Plane& b() { return planes[1]; }
+    Plane& halfDifference() { return planes[2]; }
 
-    Plane& a(std::size_t channel) { return planes[channel]; }
-    Plane& b(std::size_t channel) { return planes[3 + channel]; }
-    Plane& halfDifference(std::size_t channel) { return planes[6 + channel]; }
+    CoarseResiduals(const Halves& halves, const Denoised& filtered, std::size_t channel, std::size_t threads);
 };
 
-CoarseResiduals::CoarseResiduals(const Halves& halves, const Denoised& filtered, std::size_t threads) {
+CoarseResiduals::CoarseResiduals(const Halves& halves, const Denoised& filtered, std::size_t channel,
+                                 std::size_t threads) {
     const std::size_t width = filtered.picture.width, height = filtered.picture.height;
     PlaneBlock block(width, height, planes.size());
     for (Plane& plane : planes) plane = block.next();
     parallelFor(threads, height, [&](std::size_t y) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            const float *rawA = halves.half[0].radiance[c].row(y), *rawB = halves.half[1].radiance[c].row(y);
-            const float *filteredA = &filtered.halfA.data[y * width * 3 + c],
-                        *filteredB = &filtered.halfB.data[y * width * 3 + c];
-            float *rowA = a(c).row(y), *rowB = b(c).row(y), *rowDifference = halfDifference(c).row(y);
-            for (std::size_t x = 0; x < width; ++x) {
-                rowA[x] = rawA[x] - filteredA[x * 3];
-                rowB[x] = rawB[x] - filteredB[x * 3];
-                rowDifference[x] = 0.5f * (rawA[x] - rawB[x]);
-            }
+        const float *rawA = halves.half[0].radiance[channel].row(y), *rawB = halves.half[1].radiance[channel].row(y);
+        const float *filteredA = &filtered.halfA.data[y * width * 3 + channel],
+                    *filteredB = &filtered.halfB.data[y * width * 3 + channel];
+        float *rowA = a().row(y), *rowB = b().row(y), *rowDifference = halfDifference().row(y);
+        for (std::size_t x = 0; x < width; ++x) {
+            rowA[x] = rawA[x] - filteredA[x * 3];
+            rowB[x] = rawB[x] - filteredB[x * 3];
+            rowDifference[x] = 0.5f * (rawA[x] - rawB[x]);
         }
     });
     boxMeans(planes, shared::kDenoiseCoarseReach, threads);
@@ -116,12 +115,14 @@ void mixWithRaw(const Halves& halves, Choice& weights, std::size_t threads) {
 
 void giveBack(const Halves& halves, Denoised& result, std::size_t threads) {
     const std::uint32_t width = result.picture.width, height = result.picture.height;
-    CoarseResiduals residuals(halves, result, threads);
+    std::array<CoarseResiduals, 3> residuals{CoarseResiduals(halves, result, 0, threads),
+                                             CoarseResiduals(halves, result, 1, threads),
+                                             CoarseResiduals(halves, result, 2, threads)};
     const MixCells cells(width, height, threads, [&](std::size_t y, std::vector<shared::DenoiseMix>& mixes) {
         const float* picture = &result.picture.data[y * width * 3];
         for (std::size_t c = 0; c < 3; ++c) {
-            const float *a = residuals.a(c).row(y), *b = residuals.b(c).row(y),
-                        *halfDifference = residuals.halfDifference(c).row(y);
+            const float *a = residuals[c].a().row(y), *b = residuals[c].b().row(y),
+                        *halfDifference = residuals[c].halfDifference().row(y);
             for (std::size_t x = 0; x < width; ++x)
                 add(mixes[x], shared::denoiseCoarseMix(a[x], b[x], halfDifference[x], picture[x * 3 + c]));
         }
@@ -132,8 +133,8 @@ void giveBack(const Halves& halves, Denoised& result, std::size_t threads) {
             const float share = cells.share(x, y);
             for (std::size_t c = 0; c < 3; ++c) {
                 float &a = result.halfA.pixel(x, y)[c], &b = result.halfB.pixel(x, y)[c];
-                a = shared::denoiseGivenBack(a, share * residuals.a(c).row(y)[x]);
-                b = shared::denoiseGivenBack(b, share * residuals.b(c).row(y)[x]);
+                a = shared::denoiseGivenBack(a, share * residuals[c].a().row(y)[x]);
+                b = shared::denoiseGivenBack(b, share * residuals[c].b().row(y)[x]);
                 result.picture.pixel(x, y)[c] = 0.5f * (a + b);
             }
         }
