@@ -54,9 +54,12 @@ void writeFeatures(uint invocation) {
     uvec2 first = firstPixelOf(invocation, kSeenTogether, params);
     uint end = min(first.x + kSeenTogether, params.width);
     bool isAdaptive = launch.isAdaptive != 0u && launch.samples > kFirstSeenSamples;
+    uint samples = isAdaptive ? kFirstSeenSamples : launch.samples;
     SurfaceRange range = emptyRange();
-    if (isAdaptive)
-        for (uint x = first.x; x < end; x++) writePixel(params, uvec2(x, first.y), kFirstSeenSamples, range);
-    if (isAdaptive && isNarrow(range)) return;
-    for (uint x = first.x; x < end; x++) writePixel(params, uvec2(x, first.y), launch.samples, range);
+    bool isDone = false;
+    while (!isDone) { // one call of what traces rays, as each takes compilers long
+        for (uint x = first.x; x < end; x++) writePixel(params, uvec2(x, first.y), samples, range);
+        isDone = samples == launch.samples || isNarrow(range);
+        samples = launch.samples;
+    }
 }

@@ -13,6 +13,8 @@ class Plane {
   public:
     Plane() = default;
     Plane(std::size_t width, std::size_t height); // of zeros
+    Plane(Plane&&) = default;                     // not copied: both would have the same pixels
+    Plane& operator=(Plane&&) = default;
 
     std::size_t width() const { return width_; }
     std::size_t height() const { return height_; }
@@ -28,9 +30,9 @@ class Plane {
     std::shared_ptr<float> data_; // of a block that planes may share
 };
 
-// Memory for `count` planes of one size, of zeros, which lives as long as any of these. It is given by the system in
-// large pages, and when it is first written, so by all threads that fill it: planes of their own would take a tenth of
-// the denoiser's time for pages alone.
+// Memory for `count` planes of one size, of zeros, which lives as long as any of these. The system gives it in large
+// pages, and when it is first written, so to all threads that fill it: planes apart from each other took much of the
+// denoiser's time for pages alone.
 class PlaneBlock {
   public:
     PlaneBlock(std::size_t width, std::size_t height, std::size_t count);
