@@ -174,8 +174,12 @@ class CpuEngine final : public app::Engine {
         runWorkers(policy_, threads_, [&](std::uint32_t) {
             for (std::uint32_t y = nextRow.fetch_add(1, std::memory_order_relaxed); y < rows;
                  y = nextRow.fetch_add(1, std::memory_order_relaxed)) {
-                const AovTask task{features_,          request.firstRow + y, samples,
-                                   request.isAdaptive, planes(images, y),    planes(images.wide, y),
+                const AovTask task{features_,
+                                   request.firstRow + y,
+                                   samples,
+                                   request.isAdaptive,
+                                   planes(images, y),
+                                   planes(images.wide, y),
                                    planeRow(images.emission, y)};
                 kernel_->renderAovs(context_, task);
             }

@@ -123,7 +123,7 @@ struct AovRequest : SurfaceRequest {      // of the first surface that is hit
     std::uint32_t firstRow = 0, rows = 0; // that the images are to have, and no others; 0: all
     SurfaceRequest wide{};                // of the first that scatters widely, through mirrors and clear glass
     bool emission = false;                // radiance of lights and sky in sight, in mirrors and glass too
-    bool isAdaptive = false;              // few samples where these see the same first surface, as the denoiser wants it
+    bool isAdaptive = false; // few samples where these see the same first surface, as the denoiser wants it
     bool looksThrough() const { return wide.any() || emission; }
     bool any() const { return SurfaceRequest::any() || looksThrough(); }
 };
