@@ -31,6 +31,7 @@ constexpr std::array kEntries{
     entry(shared::kTreeDepthId, kTraversal + offsetof(TraversalShape, treeDepth)),
     entry(shared::kTreeIsWideId, kTraversal + offsetof(TraversalShape, treeIsWide)),
     entry(shared::kIsLinearId, kTraversal + offsetof(TraversalShape, isLinear)),
+    entry(shared::kListedNearSpheresId, kTraversal + offsetof(TraversalShape, listedNearSpheres)),
     entry(shared::kListedSpheresId, kTraversal + offsetof(TraversalShape, listedSpheres)),
     entry(shared::kListedXQuadsId, kAxisQuads),
     entry(shared::kListedYQuadsId, kAxisQuads + sizeof(std::uint32_t)),
@@ -61,6 +62,7 @@ TraversalShape traversalShape(const accel::GpuBvh& bvh) {
     shape.treeDepth = bvh.isLinear ? 0 : (bvh.trees.depth + kDepthStep - 1) / kDepthStep * kDepthStep;
     shape.treeIsWide = bvh.trees.placed.isWide ? 1 : 0;
     shape.isLinear = bvh.isLinear ? 1 : 0;
+    shape.listedNearSpheres = bvh.lists.nearSpheres;
     shape.listedSpheres = bvh.lists.spheres;
     shape.listedAxisQuads = bvh.lists.axisQuads;
     shape.listedCuboids = bvh.lists.cuboids;

@@ -19,6 +19,7 @@ struct TraversalShape {
     std::uint32_t treeDepth = 0;
     std::uint32_t treeIsWide = 0;
     std::uint32_t isLinear = 0;
+    std::uint32_t listedNearSpheres = 0;
     std::uint32_t listedSpheres = 0;
     std::array<std::uint32_t, 3> listedAxisQuads{}; // perpendicular to x, y, z
     std::uint32_t listedCuboids = 0;

@@ -22,6 +22,7 @@ const uint kLightCountId = 8u;
 const uint kGroupSizeId = 9u;
 const uint kTreeDepthId = 10u;
 const uint kIsLinearId = 11u;
+const uint kListedNearSpheresId = 20u;
 const uint kListedSpheresId = 12u;
 const uint kListedXQuadsId = 13u;
 const uint kListedYQuadsId = 14u;

@@ -1,6 +1,8 @@
 // Traces rays through the lists of GpuBvh, which scenes of few primitives have in place of a tree: every primitive is
 // tested, by all lanes together.
-layout(constant_id = kListedSpheresId) const uint kListedSpheres = 0u;
+layout(constant_id = kListedNearSpheresId) const uint kListedNearSpheres = 0u;
+layout(constant_id = kListedSpheresId) const uint kListedSpheres = 0u; // all others
+const uint kAllListedSpheres = kListedNearSpheres + kListedSpheres;
 layout(constant_id = kListedXQuadsId) const uint kListedXQuads = 0u; // along axes, perpendicular to x
 layout(constant_id = kListedYQuadsId) const uint kListedYQuads = 0u;
 layout(constant_id = kListedZQuadsId) const uint kListedZQuads = 0u;
@@ -85,16 +87,18 @@ Hit traceLinear(Ray ray, bool anyHit, float tMax) {
     // for who was not in it.
     if (isnan(listVectors[0].x)) nearest.t = 0.0f;
     if (has(kFeatures, kFeatureSpheres)) {
-        for (uint i = 0u; i < kListedSpheres; i++) {
-            vec4 sphere = listVectors[2u * i];
-            vec4 motion = listVectors[2u * i + 1u];
-            uint index = floatBitsToUint(motion.w);
-            float end = searchEnd(nearest, anyHit, tMax);
-            float t = sphere.w < 0.0f ? testNearSphere(r, sphere, index, end) : testSphere(r, sphere, motion.xyz, end);
+        for (uint i = 0u; i < kListedNearSpheres; i++) {
+            uint index = floatBitsToUint(listVectors[2u * i + 1u].w);
+            float t = testNearSphere(r, listVectors[2u * i], index, searchEnd(nearest, anyHit, tMax));
             acceptSphere(nearest, t, index);
         }
+        for (uint i = kListedNearSpheres; i < kAllListedSpheres; i++) {
+            vec4 motion = listVectors[2u * i + 1u];
+            float t = testSphere(r, listVectors[2u * i], motion.xyz, searchEnd(nearest, anyHit, tMax));
+            acceptSphere(nearest, t, floatBitsToUint(motion.w));
+        }
     }
-    uint first = 2u * kListedSpheres;
+    uint first = 2u * kAllListedSpheres;
     if (has(kFeatures, kFeatureQuads)) {
         traceAxisQuads(r, 0u, first, kListedXQuads, anyHit, tMax, nearest);
         first += 2u * kListedXQuads;

@@ -101,16 +101,21 @@ std::array<vec4, 4> cuboidVectors(const Cuboid& cuboid) {
 
 LinearLists makeLists(const AccelInput& input, const shared::Geometry& world) {
     LinearLists lists;
-    lists.spheres = world.sphereCount;
     lists.triangles = world.triangleCount;
     lists.rounds = world.roundCount;
     const auto add = [&](std::initializer_list<vec4> vectors) {
         lists.vectors.insert(lists.vectors.end(), vectors.begin(), vectors.end());
     };
-    for (std::uint32_t i = 0; i < world.sphereCount; ++i) {
-        const std::uint32_t index = world.firstSphere + i;
-        add({sphereVector(input, index), vec4(vec3(motionVector(input, index)), std::bit_cast<float>(index))});
-    }
+    const auto addSpheres = [&](bool areNear, std::uint32_t& count) {
+        for (std::uint32_t i = world.firstSphere; i < world.firstSphere + world.sphereCount; ++i) {
+            const vec4 sphere = sphereVector(input, i);
+            if ((sphere.w < 0) != areNear) continue;
+            add({sphere, vec4(vec3(motionVector(input, i)), std::bit_cast<float>(i))});
+            ++count;
+        }
+    };
+    addSpheres(true, lists.nearSpheres);
+    addSpheres(false, lists.spheres);
     std::vector<std::uint32_t> slanted; // quads
     for (std::uint32_t i = world.firstQuad; i < world.firstQuad + world.quadCount; ++i) {
         if (!perpendicularAxis(input.quads[i])) slanted.push_back(i);

@@ -52,7 +52,8 @@ struct GpuTrees {
 // The primitives of a scene without instances, not sorted at all.
 struct LinearLists {
     std::vector<shared::vec4> vectors;        // as in TreeRecords.h
-    std::uint32_t spheres = 0;                // how many of each there are
+    std::uint32_t nearSpheres = 0;            // how many of each there are: first the near spheres of Shapes.h,
+    std::uint32_t spheres = 0;                // then the others
     std::array<std::uint32_t, 3> axisQuads{}; // perpendicular to x, y, z
     std::uint32_t cuboids = 0;                // of the others' faces
     std::uint32_t quads = 0;                  // the rest

@@ -1,5 +1,6 @@
 // The tree of the compute engine: complete, its boxes hold what is below them, and its depth is what a traversal needs.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <vector>
@@ -268,6 +269,21 @@ TEST(GpuBvh, SmallScenesAreLists) {
     EXPECT_EQ(std::bit_cast<std::uint32_t>(bvh.lists.vectors[quad + 1].w), 1u);
     EXPECT_EQ(shared::vec3(bvh.lists.vectors[quad]), geometry.quads[1].corner);
     EXPECT_FALSE(buildGpuBvh(mixture(shared::kMaxListedPrimitives + 1, 11).input())->isLinear);
+}
+
+TEST(GpuBvh, NearSpheresAreListedFirst) {
+    Geometry geometry;
+    geometry.addSphere(shared::vec3(5.0f, 0.0f, 0.0f), 1.0f);
+    geometry.addSphere(shared::vec3(0.0f, -100.0f, 0.0f), 100.0f); // the origin of coordinates is on it
+    geometry.addSphere(shared::vec3(0.0f, 0.0f, 9.0f), 2.0f);
+    const LinearLists lists = buildGpuBvh(geometry.input())->lists;
+    ASSERT_EQ(lists.nearSpheres, 1u);
+    ASSERT_EQ(lists.spheres, 2u);
+    const std::array<std::uint32_t, 3> order{1, 0, 2};
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        EXPECT_EQ(std::bit_cast<std::uint32_t>(lists.vectors[2 * i + 1].w), order[i]);
+        EXPECT_EQ(lists.vectors[2 * i].w < 0, i == 0); // the radius
+    }
 }
 
 // Whatever axis they are perpendicular to and whichever edge comes first, quads along axes are hit where the general
