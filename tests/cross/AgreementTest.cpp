@@ -74,16 +74,14 @@ class EnginePair {
         adaptive.isAdaptive = true;
         app::AovImages cpuAdaptive = cpu_->renderAovs(adaptive, 8);
         app::AovImages gpuAdaptive = gpu_->renderAovs(adaptive, 8);
-        return {{cpu.albedo, gpu.albedo},
-                {cpu.normal, gpu.normal},
-                {cpu.depth, gpu.depth},
-                {cpu.wide.albedo, gpu.wide.albedo},
-                {cpu.wide.normal, gpu.wide.normal},
-                {cpu.wide.depth, gpu.wide.depth},
-                {cpu.emission, gpu.emission},
-                {cpuAdaptive.albedo, gpuAdaptive.albedo},
-                {cpuAdaptive.normal, gpuAdaptive.normal},
-                {cpuAdaptive.depth, gpuAdaptive.depth}};
+        std::vector<Pair> pairs{Pair{cpu.emission, gpu.emission}};
+        const auto add = [&pairs](const app::SurfaceImages& a, const app::SurfaceImages& b) {
+            pairs.insert(pairs.end(), {{a.albedo, b.albedo}, {a.normal, b.normal}, {a.depth, b.depth}});
+        };
+        add(cpu, gpu);
+        add(cpu.wide, gpu.wide);
+        add(cpuAdaptive, gpuAdaptive);
+        return pairs;
     }
 
   private:

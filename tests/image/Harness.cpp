@@ -22,7 +22,8 @@ constexpr std::array kEverySampling = {app::LightSampling::Mixture, app::LightSa
 constexpr std::array kEverySelection = {app::LightSelection::Uniform, app::LightSelection::Power,
                                         app::LightSelection::Contribution};
 
-// Those where isWanted(sampler, way to sample lights, choice among lights), given as indices.
+// Settings of each estimator for which isWanted(sampler, way to sample lights, choice among lights) holds, given as
+// indices into the lists above; those of the bsdf alone, which choose no light, in any case.
 template <class IsWanted>
 std::vector<app::RenderSettings> estimators(const app::RenderSettings& base, const IsWanted& isWanted) {
     std::vector<app::RenderSettings> wanted;

@@ -97,7 +97,7 @@ void filterErrors(const Halves& halves, std::size_t filter, std::size_t y, float
                       halves.variance.width(), errors);
 }
 
-// The same of pixels as they are.
+// A row of the errors of pixels as they are, to be compared with filterErrors().
 void rawErrors(const Halves& halves, std::size_t y, float* errors) {
     for (std::size_t c = 0; c < 3; ++c) {
         const float *a = halves.half[0].tones[c].row(y), *b = halves.half[1].tones[c].row(y);
