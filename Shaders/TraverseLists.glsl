@@ -1,5 +1,5 @@
 // Traces rays through the lists of GpuBvh, which scenes of few primitives have in place of a tree: every primitive is
-// tested, by all lanes together.
+// tested, by all lanes together; and those near spheres that nearly all rays meet, which are listed beside a tree.
 layout(constant_id = kListedNearSpheresId) const uint kListedNearSpheres = 0u;
 layout(constant_id = kListedSpheresId) const uint kListedSpheres = 0u; // all others
 const uint kAllListedSpheres = kListedNearSpheres + kListedSpheres;
@@ -79,19 +79,23 @@ void placeOnRectangle(Ray ray, inout Nearest nearest) {
     nearest.v = uv.y;
 }
 
-Hit traceLinear(Ray ray, bool anyHit, float tMax) {
-    TracedRay r = makeTracedRay(ray, true);
-    Nearest nearest = nothingWithin(tMax);
+void traceListedNearSpheres(TracedRay r, bool anyHit, float tMax, inout Nearest nearest) {
     // Never so, but the block's address is known to all invocations before the loops by this. Mesa 25.2 on processors
     // goes once more through a loop that all have left, and loads from an address first met in a loop, which is null
     // for who was not in it.
     if (isnan(listVectors[0].x)) nearest.t = 0.0f;
+    for (uint i = 0u; i < kListedNearSpheres; i++) {
+        uint index = floatBitsToUint(listVectors[2u * i + 1u].w);
+        float t = testNearSphere(r, listVectors[2u * i], index, searchEnd(nearest, anyHit, tMax));
+        acceptSphere(nearest, t, index);
+    }
+}
+
+Hit traceLinear(Ray ray, bool anyHit, float tMax) {
+    TracedRay r = makeTracedRay(ray, true);
+    Nearest nearest = nothingWithin(tMax);
+    traceListedNearSpheres(r, anyHit, tMax, nearest);
     if (has(kFeatures, kFeatureSpheres)) {
-        for (uint i = 0u; i < kListedNearSpheres; i++) {
-            uint index = floatBitsToUint(listVectors[2u * i + 1u].w);
-            float t = testNearSphere(r, listVectors[2u * i], index, searchEnd(nearest, anyHit, tMax));
-            acceptSphere(nearest, t, index);
-        }
         for (uint i = kListedNearSpheres; i < kAllListedSpheres; i++) {
             vec4 motion = listVectors[2u * i + 1u];
             float t = testSphere(r, listVectors[2u * i], motion.xyz, searchEnd(nearest, anyHit, tMax));

@@ -113,7 +113,11 @@ void testLeaf(TracedRay r, uint leaf, inout Nearest nearest) {
     }
 }
 
+// Marks the place of a listed sphere, which is the primitive itself.
+const uint kOnList = 0x80000000u;
+
 uint primitiveAt(uint kind, uint place) {
+    if (kListedNearSpheres != 0u && (place & kOnList) != 0u) return place & ~kOnList;
     if (has(kFeatures, kFeatureTriangles) && kind == kTriangle) {
         return floatBitsToUint(constants.tree.triangles.at[place].vertex0.w);
     }
@@ -146,6 +150,11 @@ Hit traceTree(Ray ray, bool anyHit, float tMax) {
     TracedRay r = makeTracedRay(ray, true);
     vec3 inverse = slabInverse(ray.direction);
     Nearest nearest = nothingWithin(tMax);
+    if (kListedNearSpheres != 0u) {
+        traceListedNearSpheres(r, anyHit, tMax, nearest);
+        if (nearest.place != kNone) nearest.place |= kOnList;
+        if (anyHit && nearest.place != kNone) current = kTreeEnd;
+    }
     for (;;) {
         for (uint i = 0u; i < nodesBetweenLeaves() && isTreeNode(current); i++) {
             if (kTreeIsWide != 0u) {

@@ -57,7 +57,8 @@ struct alignas(32) SphereBlock {
     std::uint32_t primitive[kWidth]; // index into the scene's array, kNone for an empty lane
 };
 
-// Those whose power is known, see shared::Sphere; few of any scene.
+// Those whose power is known, see shared::Sphere; few of any scene. Beside them others may stand, whose power is
+// infinite.
 struct alignas(32) NearSphereBlock {
     float center[3][kWidth];
     float radius[kWidth];

@@ -1,6 +1,7 @@
 #include "Common/Accel/CpuAccel.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -48,15 +49,24 @@ void fillLists(AccelStorage& storage, const AccelInput& input, const shared::Geo
         return all;
     };
     const std::vector<std::uint32_t> all = indices(world.firstSphere, world.sphereCount);
-    const auto spheresOf = [&]<class Block>(LargeArray<Block>& blocks, LeafKind kind) {
+    const auto spheresOf = [&](LeafKind kind) {
         std::vector<std::uint32_t> spheres;
         std::copy_if(all.begin(), all.end(), std::back_inserter(spheres),
                      [&](std::uint32_t sphere) { return sphereKind(input, sphere) == kind; });
+        return spheres;
+    };
+    const auto listSpheres = [&](auto& blocks, const std::vector<std::uint32_t>& spheres) {
         return fillList(blocks, input, shared::kSphere, spheres);
     };
-    view.listedSpheres = spheresOf(storage.listedSpheres, LeafKind::Sphere);
-    view.listedNearSpheres = spheresOf(storage.listedNearSpheres, LeafKind::NearSphere);
-    view.listedMovingSpheres = spheresOf(storage.listedMovingSpheres, LeafKind::MovingSphere);
+    std::vector<std::uint32_t> spheres = spheresOf(LeafKind::Sphere), nearSpheres = spheresOf(LeafKind::NearSphere);
+    // Every ray meets all lanes of a block of near spheres, and others may be among these: what finds room there needs
+    // no block of its own.
+    const std::size_t room = (kWidth - nearSpheres.size() % kWidth) % kWidth, moved = std::min(room, spheres.size());
+    nearSpheres.insert(nearSpheres.end(), spheres.end() - static_cast<std::ptrdiff_t>(moved), spheres.end());
+    spheres.resize(spheres.size() - moved);
+    view.listedSpheres = listSpheres(storage.listedSpheres, spheres);
+    view.listedNearSpheres = listSpheres(storage.listedNearSpheres, nearSpheres);
+    view.listedMovingSpheres = listSpheres(storage.listedMovingSpheres, spheresOf(LeafKind::MovingSphere));
     view.listedQuads = fillList(storage.listedQuads, input, shared::kQuad, indices(world.firstQuad, world.quadCount));
     view.listedTriangles =
         fillList(storage.listedTriangles, input, shared::kTriangle, indices(world.firstTriangle, world.triangleCount));

@@ -19,12 +19,10 @@
 namespace rt::accel {
 namespace {
 
-using shared::vec3;
-using shared::vec4;
+using shared::vec3, shared::vec4;
 
 static_assert(sizeof(shared::TreeNode) == 64 && sizeof(shared::WideTreeNode) == 128);
-static_assert(sizeof(shared::TreeQuad) == 64 && sizeof(shared::TreeTriangle) == 48);
-static_assert(sizeof(shared::TreeRound) == 64);
+static_assert(sizeof(shared::TreeQuad) == 64 && sizeof(shared::TreeTriangle) == 48 && sizeof(shared::TreeRound) == 64);
 
 // ---- primitives ----------------------------------------------------------------------------------------------------
 
@@ -99,6 +97,13 @@ std::array<vec4, 4> cuboidVectors(const Cuboid& cuboid) {
             vec4(row(2), 0.0f)};
 }
 
+void addSphere(LinearLists& lists, const AccelInput& input, std::uint32_t index) {
+    const vec4 sphere = sphereVector(input, index);
+    lists.vectors.push_back(sphere);
+    lists.vectors.push_back(vec4(vec3(motionVector(input, index)), std::bit_cast<float>(index)));
+    ++(sphere.w < 0 ? lists.nearSpheres : lists.spheres);
+}
+
 LinearLists makeLists(const AccelInput& input, const shared::Geometry& world) {
     LinearLists lists;
     lists.triangles = world.triangleCount;
@@ -106,16 +111,9 @@ LinearLists makeLists(const AccelInput& input, const shared::Geometry& world) {
     const auto add = [&](std::initializer_list<vec4> vectors) {
         lists.vectors.insert(lists.vectors.end(), vectors.begin(), vectors.end());
     };
-    const auto addSpheres = [&](bool areNear, std::uint32_t& count) {
-        for (std::uint32_t i = world.firstSphere; i < world.firstSphere + world.sphereCount; ++i) {
-            const vec4 sphere = sphereVector(input, i);
-            if ((sphere.w < 0) != areNear) continue;
-            add({sphere, vec4(vec3(motionVector(input, i)), std::bit_cast<float>(i))});
-            ++count;
-        }
-    };
-    addSpheres(true, lists.nearSpheres);
-    addSpheres(false, lists.spheres);
+    for (const bool areNear : {true, false})
+        for (std::uint32_t i = world.firstSphere; i < world.firstSphere + world.sphereCount; ++i)
+            if ((input.spheres[i].power < shared::kInfinity) == areNear) addSphere(lists, input, i);
     std::vector<std::uint32_t> slanted; // quads
     for (std::uint32_t i = world.firstQuad; i < world.firstQuad + world.quadCount; ++i) {
         if (!perpendicularAxis(input.quads[i])) slanted.push_back(i);
@@ -180,9 +178,10 @@ class Flattener {
     void add(const SceneTree& tree);
     void finishPlaced(std::vector<Box> boxes); // of all that was added, the world being next
     const PlacedTrees& placed() const { return trees_.placed; }
-    GpuTrees finish();
+    GpuBvh finish();
 
   private:
+    bool isForList(const SceneTree& tree, const BvhNode& leaf) const;
     std::uint32_t addLeaf(const SceneTree& tree, const BvhNode& leaf);
     template <class Node, class Children>
     void addNodes(const SceneTree& tree, std::vector<Node>& nodes, const Children& childrenOf);
@@ -190,6 +189,7 @@ class Flattener {
 
     const AccelInput& input_;
     GpuTrees trees_;
+    LinearLists lists_;                 // of what is in no leaf
     TreeCounts base_;                   // of what is there already
     std::vector<std::uint32_t> roots_;  // of each geometry
     std::vector<std::uint32_t> depths_; // of each geometry: references that a traversal of it has to remember
@@ -200,6 +200,15 @@ void checkRoom(std::size_t items) {
         throw RenderError("the scene has more primitives of a kind than the compute engine's tree can hold (" +
                           std::to_string(shared::kTreeItems) + ")");
     }
+}
+
+// Whether a leaf that is not alone has near spheres of the world whose box most rays enter, a ground say. Their test takes
+// long: all lanes make it together, and first.
+bool Flattener::isForList(const SceneTree& tree, const BvhNode& leaf) const {
+    constexpr std::uint32_t kMaxListed = 4;
+    return tree.geometry == 0 && tree.items.kind(tree.bvh.items[leaf.first]) == LeafKind::NearSphere &&
+           leaf.box.halfArea() > 0.5f * tree.bvh.nodes[0].box.halfArea() &&
+           lists_.nearSpheres + leaf.count <= kMaxListed;
 }
 
 // A leaf's primitives become neighbours in the array of their kind.
@@ -286,6 +295,12 @@ void Flattener::addNodes(const SceneTree& tree, std::vector<Node>& nodes, const 
         const Open next = open.back();
         open.pop_back();
         const BvhNode& node = binary[next.binary];
+        if (node.isLeaf() && next.binary != 0 && isForList(tree, node)) {
+            for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+                addSphere(lists_, input_, tree.items.index(tree.bvh.items[i]));
+            setBounds(nodes[next.parent - base_.nodes], next.child, Box{});
+            continue;
+        }
         const auto index = static_cast<std::uint32_t>(base_.nodes + nodes.size());
         const std::uint32_t reference = node.isLeaf() ? addLeaf(tree, node) : index;
         if (next.binary != 0) nodes[next.parent - base_.nodes].children[next.child] = reference;
@@ -329,12 +344,12 @@ void Flattener::finishPlaced(std::vector<Box> boxes) {
     placed.boxes = std::move(boxes);
 }
 
-GpuTrees Flattener::finish() {
+GpuBvh Flattener::finish() {
     checkRoom(input_.instances.size());
     for (const shared::Instance& instance : input_.instances) trees_.instanceRoots.push_back(roots_[instance.geometry]);
     trees_.root = roots_[0];
     trees_.depth = depths_[0];
-    return std::move(trees_);
+    return {false, std::move(lists_), std::move(trees_)};
 }
 
 } // namespace
@@ -372,7 +387,7 @@ std::optional<GpuBvh> buildGpuBvh(const AccelInput& input, const GpuBvhSettings&
         flattener.finishPlaced(std::move(*boxes));
     }
     if (!buildWorldTree(input, flattener.placed().boxes, tree, cancel, nullptr, add)) return std::nullopt;
-    bvh.trees = flattener.finish();
+    bvh = flattener.finish();
     bvh.isLinear = !hasWorld; // instances may all be of empty geometries
     return bvh;
 }

@@ -49,7 +49,8 @@ struct GpuTrees {
     PlacedTrees placed;
 };
 
-// The primitives of a scene without instances, not sorted at all.
+// The primitives of a scene without instances, not sorted at all; or those near spheres of a world with a tree whose
+// boxes nearly all rays would enter, which are then in no leaf.
 struct LinearLists {
     std::vector<shared::vec4> vectors;        // as in TreeRecords.h
     std::uint32_t nearSpheres = 0;            // how many of each there are: first the near spheres of Shapes.h,
@@ -62,7 +63,7 @@ struct LinearLists {
 };
 
 struct GpuBvh {
-    bool isLinear = false; // the lists hold everything; otherwise the trees do
+    bool isLinear = false; // the lists hold everything; otherwise the trees do, but for what is listed beside them
     LinearLists lists;
     GpuTrees trees;
 };

@@ -76,8 +76,12 @@ struct LaneHits {
     Float8 t, u, v; // meaningful where mask is set
 };
 
-RT_FN LaneHits intersectSpheres(const ShapeRay& ray, Vector center, Float8 radius) {
-    const Float8 zero = broadcast(0.0f);
+// Of the ray's line and a sphere: the middle of the chord, and half of it, squared; negative beside the sphere.
+struct SphereChord {
+    Float8 middle, squaredHalf;
+};
+
+RT_FN SphereChord sphereChord(const ShapeRay& ray, Vector center, Float8 radius) {
     const Float8 inverseA = broadcast(ray.inverseSquaredLength);
     const Vector d = broadcast3(ray.direction);
     const Vector f = center - broadcast3(ray.origin);
@@ -86,40 +90,42 @@ RT_FN LaneHits intersectSpheres(const ShapeRay& ray, Vector center, Float8 radiu
     const Float8 y = negateMultiplyAdd(middle, d.y, f.y);
     const Float8 z = negateMultiplyAdd(middle, d.z, f.z);
     const Float8 squaredHalf = negateMultiplyAdd(x, x, radius * radius) - multiplyAdd(y, y, z * z);
-    const Float8 halfChord = squareRoot(squaredHalf * inverseA); // not a number beside the sphere
-    const Float8 near = middle - halfChord;
-    const Float8 t = select(zero < near, near, middle + halfChord);
+    return {middle, squaredHalf * inverseA};
+}
+
+// The first of both places on the ray's line that lies ahead; none where they are no numbers.
+RT_FN LaneHits firstAhead(Float8 lower, Float8 upper) {
+    const Float8 zero = broadcast(0.0f);
+    const Float8 t = select(zero < lower, lower, upper);
     return {zero < t, t, zero, zero};
+}
+
+RT_FN LaneHits intersectSpheres(const ShapeRay& ray, Vector center, Float8 radius) {
+    const SphereChord chord = sphereChord(ray, center, radius);
+    const Float8 half = squareRoot(chord.squaredHalf);
+    return firstAhead(chord.middle - half, chord.middle + half);
 }
 
 RT_FN LaneHits intersectBlock(const ShapeRay& ray, const SphereBlock& block) {
     return intersectSpheres(ray, load3(block.center), load(block.radius));
 }
 
-// Lanes whose sphere the ray begins far away from take what intersectSpheres() does.
+// Lanes whose sphere is no near one, or the ray begins far away from, take what intersectSpheres() does.
 RT_FN LaneHits intersectBlock(const ShapeRay& ray, const NearSphereBlock& block) {
-    const Float8 zero = broadcast(0.0f);
-    const Float8 inverseA = broadcast(ray.inverseSquaredLength);
     const Vector o = broadcast3(ray.origin);
-    const Vector d = broadcast3(ray.direction);
     const Vector center = load3(block.center);
-    const Float8 radius = load(block.radius);
-    const Vector f = center - o;
-    const Float8 middle = dot(f, d) * inverseA;
-    const Float8 power = load(block.power) + dot(o, o - center - center);
-    const Vector l = {negateMultiplyAdd(middle, d.x, f.x), negateMultiplyAdd(middle, d.y, f.y),
-                      negateMultiplyAdd(middle, d.z, f.z)};
-    const Float8 farHalf = (radius * radius - dot(l, l)) * inverseA;
+    const Float8 radius = load(block.radius), powerOfOrigin = load(block.power);
+    const auto [middle, farSquaredHalf] = sphereChord(ray, center, radius);
     const Float8 reach = maximum(absolute(o.x), maximum(absolute(o.y), absolute(o.z)));
-    const Mask8 isInReach = reach < broadcast(4.0f) * radius;
-    const Float8 product = select(isInReach, power * inverseA, multiplySubtract(middle, middle, farHalf));
-    const Float8 squaredHalf = select(isInReach, multiplySubtract(middle, middle, product), farHalf);
-    const Float8 halfChord = squareRoot(squaredHalf); // not a number beside the sphere
-    const Float8 larger = select(middle < zero, middle - halfChord, middle + halfChord);
+    const Mask8 isByPower = (reach < broadcast(4.0f) * radius) & (powerOfOrigin < broadcast(shared::kInfinity));
+    const Float8 power = powerOfOrigin + dot(o, o - center - center);
+    const Float8 product = power * broadcast(ray.inverseSquaredLength);
+    const Float8 half = squareRoot(select(isByPower, multiplySubtract(middle, middle, product), farSquaredHalf));
+    const Float8 lower = middle - half, upper = middle + half;
+    const Float8 larger = select(middle < broadcast(0.0f), lower, upper);
     const Float8 smaller = product / larger;
-    const Float8 nearest = minimum(larger, smaller);
-    const Float8 t = select(zero < nearest, nearest, maximum(larger, smaller));
-    return {zero < t, t, zero, zero};
+    return firstAhead(select(isByPower, minimum(larger, smaller), lower),
+                      select(isByPower, maximum(larger, smaller), upper));
 }
 
 RT_FN LaneHits intersectBlock(const ShapeRay& ray, const MovingSphereBlock& block) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -87,9 +88,10 @@ class Walk {
         ASSERT_LT(index, nodes.size());
         const shared::uvec4& children = nodes[index].children;
         int count = 0;
-        while (count < 4 && children[count] != shared::kTreeNothing) ++count;
-        EXPECT_GE(count, 2);
-        for (int child = 0; child < count; ++child) {
+        for (int child = 0; child < 4; ++child) count += children[child] != shared::kTreeNothing ? 1 : 0;
+        EXPECT_GE(count, 1);
+        for (int child = 0; child < 4; ++child) {
+            if (children[child] == shared::kTreeNothing) continue;
             const Box inner = common(box, childBox(nodes[index], child));
             visit(children[child], inner, above + static_cast<std::uint32_t>(count) - 1, world);
         }
@@ -283,6 +285,28 @@ TEST(GpuBvh, NearSpheresAreListedFirst) {
     for (std::size_t i = 0; i < order.size(); ++i) {
         EXPECT_EQ(std::bit_cast<std::uint32_t>(lists.vectors[2 * i + 1].w), order[i]);
         EXPECT_EQ(lists.vectors[2 * i].w < 0, i == 0); // the radius
+    }
+}
+
+// A ground is; what is as near to the origin of coordinates but small stays in the tree.
+TEST(GpuBvh, NearSpheresThatMostRaysMeetAreListedBesideTheTree) {
+    for (const std::size_t trianglesPerSphere : {1u, 4u}) { // nodes of two children, and of four
+        Geometry geometry = mixture(300, 7, trianglesPerSphere);
+        const auto ground = static_cast<std::uint32_t>(geometry.spheres.size());
+        geometry.addSphere(shared::vec3(0.0f, -1000.0f, 0.0f), 1000.0f);
+        geometry.addSphere(shared::vec3(0.0f, 0.1f, 0.0f), 0.1f);
+        const AccelInput input = geometry.input();
+        const GpuBvh bvh = *buildGpuBvh(input);
+        ASSERT_FALSE(bvh.isLinear);
+        ASSERT_EQ(bvh.lists.nearSpheres, 1u);
+        ASSERT_EQ(bvh.lists.vectors.size(), 2u);
+        EXPECT_EQ(bvh.lists.vectors[0].w, -1000.0f);
+        EXPECT_EQ(std::bit_cast<std::uint32_t>(bvh.lists.vectors[1].w), ground);
+        Walk walk(input, bvh.trees);
+        EXPECT_EQ(std::exchange(walk.spheres[ground], 1), 0);
+        EXPECT_TRUE(allMet(walk.spheres, 1));
+        EXPECT_TRUE(allMet(walk.triangles, 1));
+        EXPECT_LE(walk.depth, bvh.trees.depth);
     }
 }
 

@@ -171,6 +171,31 @@ TEST(NearSphere, FarAwayItIsASphereAsAnyOther) {
     }
 }
 
+// Others stand in one block with it, where it leaves lanes free: they are hit where they are without it, bit for bit.
+TEST(NearSphere, LeavesHitsOnSpheresBesideItAsTheyAre) {
+    Random random(79);
+    Geometry alone, together;
+    for (int i = 0; i < 11; ++i) alone.addSphere(random.inCube(4.0f) + vec3(0, 9, 0), 1.0f);
+    together.spheres = alone.spheres;
+    together.spheres.push_back(makePlanet(dvec3(0, 1, 0), 1e3, 1.7).record);
+    std::vector<Ray> rays;
+    for (int i = 0; i < 5000; ++i) {
+        const vec3 to = alone.spheres[random.below(11)].center + random.direction();
+        const vec3 from = random.inCube(1.0f) * 0.1f; // which is above the ground, and below the others
+        rays.push_back({from, (to - from) * random.uniform(0.5f, 2.0f), 0.0f});
+    }
+    const auto accel = buildAccel(alone, kAlwaysLinear), accelTogether = buildAccel(together, kAlwaysLinear);
+    for (const NamedQuery& q : runnableQueries()) {
+        SCOPED_TRACE(q.name);
+        const std::vector<Hit> expected = closestHits(*q.query, accel->view(), rays);
+        const std::vector<Hit> hits = closestHits(*q.query, accelTogether->view(), rays);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            ASSERT_EQ(hits[i].t, expected[i].t);
+            ASSERT_EQ(hits[i].primitive, expected[i].primitive);
+        }
+    }
+}
+
 // The sky that a point of the ground sees beside a ball on it, at `x` from where they touch: a ball of radius 1 that
 // touches a plane is all above it, and its form factor 1 / (1 + x^2)^(3/2).
 TEST(NearSphere, WhatTouchesTheGroundShadowsItToTheContact) {
