@@ -51,7 +51,7 @@ class EdgeRays {
         const Camera camera = context_.camera;
         for (uint i = waiting_; i < kLanes; ++i) set(samplers_, i, get(samplers_, 0u));
         RecordLanes<CameraSamples> u;
-        drawCameraSamples<kFeatures>(samplers_, u);
+        drawCameraSamples(kFeatures, samplers_, u);
         for (uint i = 0u; i < waiting_; ++i) {
             CameraSamples inPart = get(u, i);
             const CameraRole role = roleInPart(params, parts_[i], true, inPart.pixel);

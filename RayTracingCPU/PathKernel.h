@@ -59,20 +59,46 @@ inline void keepFeatures(const SurfacePlanes& planes, std::uint32_t x, const Sur
     if (planes.depth != nullptr) planes.depth[x] = meanDepth(sums);
 }
 
-// What one sample of a pixel sees.
-SeenSurfaces seenBy(const KernelContext& context, const AovTask& task, uvec2 pixel, const Sampler& smp) {
+// What one sample of a pixel sees, whose camera ray is given.
+SeenSurfaces seenBy(const KernelContext& context, const AovTask& task, const Ray& ray, const Sampler& smp) {
     const Features features = task.features;
     const CpuScene& scene = *context.scene;
     const bool looksThrough = task.wide.isWanted() || task.emission != nullptr;
     SeenSurfaces seen = nothingSeen();
-    PathState path =
-        startPath(cameraRay(features, context.params, context.camera, pixel, cameraSamples(features, smp)));
+    PathState path = startPath(ray);
     float length = 0;
     while (seeSurface(features, scene, context.params, smp, traceRay(features, scene, smp, 2u * path.vertex, path.ray),
                       looksThrough, path, length, seen)) {
     }
     seen.emission += path.radiance;
     return seen;
+}
+
+// Calls see(x, what it sees) for each of samples from..to - 1 of pixels begin..end - 1 of the task's row, at most
+// kSeenTogether of them.
+template <class See>
+void seeSamples(const KernelContext& context, const AovTask& task, uvec2 columns, uvec2 samples, const See& see) {
+    const uint inPixel = samples.y - samples.x, count = (columns.y - columns.x) * inPixel;
+    Sampler firsts[kSeenTogether];
+    for (uint x = columns.x; x < columns.y; ++x)
+        firsts[x - columns.x] =
+            makeSampler(context.params, task.y * context.params.width + x, kFeatureReplicate, samples.x);
+    RecordLanes<Sampler> samplers;
+    RecordLanes<CameraSamples> u{};
+    for (uint next = 0u; next < count; next += kLanes) {
+        for (uint i = 0u; i < kLanes; ++i) {
+            const uint sample = min(next + i, count - 1u);
+            Sampler s = firsts[sample / inPixel];
+            s.index += sample % inPixel;
+            set(samplers, i, s);
+        }
+        drawCameraSamples(task.features, samplers, u);
+        for (uint i = 0u; i < min(kLanes, count - next); ++i) {
+            const uint x = columns.x + (next + i) / inPixel;
+            const Ray ray = cameraRay(task.features, context.params, context.camera, uvec2(x, task.y), get(u, i));
+            see(x, seenBy(context, task, ray, get(samplers, i)));
+        }
+    }
 }
 
 // Not worth a specialisation: one first hit a sample, or few more.
@@ -83,21 +109,17 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
         const std::uint32_t end = std::min(begin + kSeenTogether, width);
         SeenSurfaces sums[kSeenTogether];
         SurfaceRange range = emptyRange();
-        for (std::uint32_t x = begin; x < end; ++x) {
-            sums[x - begin] = nothingSeen();
-            Sampler smp = makeSampler(context.params, task.y * width + x, kFeatureReplicate, 0u);
-            for (; smp.index < first; ++smp.index) {
-                const SeenSurfaces seen = seenBy(context, task, uvec2(x, task.y), smp);
-                extendRange(seen.first, range);
-                addSeen(seen, sums[x - begin]);
-            }
-        }
+        for (SeenSurfaces& sum : sums) sum = nothingSeen();
+        const auto add = [&](std::uint32_t x, const SeenSurfaces& seen) { addSeen(seen, sums[x - begin]); };
+        const auto addFirst = [&](std::uint32_t x, const SeenSurfaces& seen) {
+            extendRange(seen.first, range);
+            add(x, seen);
+        };
+        seeSamples(context, task, {begin, end}, {0u, first}, addFirst);
         const std::uint32_t count = isNarrow(range) ? first : task.count;
+        seeSamples(context, task, {begin, end}, {first, count}, add);
         const float scale = 1.0f / static_cast<float>(count);
         for (std::uint32_t x = begin; x < end; ++x) {
-            Sampler smp = makeSampler(context.params, task.y * width + x, kFeatureReplicate, first);
-            for (; smp.index < count; ++smp.index)
-                addSeen(seenBy(context, task, uvec2(x, task.y), smp), sums[x - begin]);
             keepFeatures(task.first, x, sums[x - begin].first, scale);
             keepFeatures(task.wide, x, sums[x - begin].wide, scale);
             keepFeature(task.emission, x, sums[x - begin].emission * scale);

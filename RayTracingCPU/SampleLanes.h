@@ -20,11 +20,10 @@ RT_CALL void drawDimension(const RecordLanes<Sampler>& samplers, const UintLanes
     }
 }
 
-// cameraSamples() of each sample.
-template <Features kFeatures>
-RT_FN void drawCameraSamples(const RecordLanes<Sampler>& samplers, RecordLanes<CameraSamples>& u) {
+// cameraSamples() of each sample; what the features do not use stays as it is.
+RT_FN void drawCameraSamples(Features features, const RecordLanes<Sampler>& samplers, RecordLanes<CameraSamples>& u) {
     const auto draw = [&](uint dimension, Vec2Lanes& lanes) {
-        if (!cameraUses(kFeatures, dimension)) return;
+        if (!cameraUses(features, dimension)) return;
         UintLanes dimensions;
         for (uint i = 0u; i < kLanes; ++i) dimensions.at[i] = dimension;
         drawDimension(samplers, dimensions, lanes);

@@ -56,7 +56,7 @@ class TileSamples {
         RecordLanes<CameraSamples> u;
         const RenderParams params = context_.params; // of this function, so that no lane could overlap them
         const Camera camera = context_.camera;
-        drawCameraSamples<kFeatures>(samplers_, u);
+        drawCameraSamples(kFeatures, samplers_, u);
         for (uint i = 0u; i < kLanes; ++i) {
             const uvec2 pixel(pixelX_.at[i], pixelY_.at[i]);
             set(rays_, i, cameraRay(kFeatures, params, camera, pixel, get(u, i)));

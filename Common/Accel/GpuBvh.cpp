@@ -100,7 +100,7 @@ std::array<vec4, 4> cuboidVectors(const Cuboid& cuboid) {
 void addSphere(LinearLists& lists, const AccelInput& input, std::uint32_t index) {
     const vec4 sphere = sphereVector(input, index);
     lists.vectors.push_back(sphere);
-    lists.vectors.push_back(vec4(vec3(motionVector(input, index)), std::bit_cast<float>(index)));
+    lists.vectors.emplace_back(vec3(motionVector(input, index)), std::bit_cast<float>(index));
     ++(sphere.w < 0 ? lists.nearSpheres : lists.spheres);
 }
 

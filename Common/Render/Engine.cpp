@@ -43,8 +43,7 @@ std::unique_ptr<PictureDenoiser> Engine::makeDenoiser() {
 DenoisedPicture Engine::denoiseHalves(const image::DenoiseInput& halves, bool details, std::uint32_t threads) {
     const Stopwatch watch;
     DenoisedPicture result;
-    result.images = image::denoise(halves, dependentSide(report().features), threads);
-    if (!details) result.images.halfA = result.images.halfB = result.images.error = result.images.bandwidth = {};
+    result.images = image::denoise(halves, dependentSide(report().features), threads, details);
     result.seconds = watch.seconds();
     return result;
 }

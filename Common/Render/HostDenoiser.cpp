@@ -42,24 +42,19 @@ class HostDenoiser final : public PictureDenoiser {
         if (!renderFeatures(request.featureSamples, film.desc(), cancel)) return std::nullopt;
         try {
             const Interruptible interruptible(cancel);
-            DenoisedPicture result{request.quality, filter(film, isLive), watch.seconds()};
-            if (!request.details)
-                for (image::Image* detail :
-                     {&result.images.halfA, &result.images.halfB, &result.images.error, &result.images.bandwidth})
-                    *detail = {};
-            return result;
+            return DenoisedPicture{request.quality, filter(film, isLive, request.details), watch.seconds()};
         } catch (const Interrupted&) {
             return std::nullopt;
         }
     }
 
   private:
-    image::Denoised filter(const image::Film& film, bool isLive) {
+    image::Denoised filter(const image::Film& film, bool isLive, bool details) {
         const EngineReport report = engine_.report();
         readRows(image::halfRows(film, 0), report.threads, input_.halfA);
         readRows(image::halfRows(film, 1), report.threads, input_.halfB);
         input_.samplesOfHalf = std::uint64_t{film.minReplicateSamples()} * (film.desc().replicates / 2);
-        if (!isLive) return image::denoise(input_, dependentSide(report.features), report.threads);
+        if (!isLive) return image::denoise(input_, dependentSide(report.features), report.threads, details);
         image::Denoised result;
         result.picture = live_.filter(input_, report.threads);
         return result;

@@ -113,7 +113,7 @@ int denoise(const Arguments& arguments) {
     const image::Checkpoint kept = image::readCheckpoint(arguments.a);
     if (const std::string why = image::whyNoHalves(kept.film); !why.empty()) throw InputError(arguments.a + ": " + why);
     // Whether pixels share paths is not kept; that they might costs the estimate little.
-    const image::Denoised result = image::denoise(image::filmHalves(kept.film), 2);
+    const image::Denoised result = image::denoise(image::filmHalves(kept.film), 2, 0, false);
     image::writeImage(arguments.output, result.picture);
     std::cout << "estimated_relmse " << result.relmse.value << '\n';
     return static_cast<int>(ExitCode::Done);

@@ -56,7 +56,7 @@ bug 'weights from the half that is filtered' DenoiseFilter.cpp 's/halves_\.half\
 bug 'pixels that are compared as if they had no noise' Denoiser.cpp 's/\+= 0\.5f \* difference \* difference/+= 0.0f * difference/' unit.Denoiser
 bug 'no stop at an edge' DenoiseWeights.h 's/0\.125f \* perSquaredBandwidth/0.0f * perSquaredBandwidth/' unit.Denoiser
 bug 'an error without what is left of the noise' DenoiseWeights.h 's/a\.ownFactor \+ b\.ownFactor - 1\.0f/-1.0f/' unit.Denoiser
-bug 'features that know the noise of the picture' PathKernel.h 's/kFeatureReplicate, 0u\)/0u, 0u)/' image.CpuEngine
+bug 'features that know the noise of the picture' PathKernel.h 's/kFeatureReplicate, samples\.x\)/0u, samples.x)/' image.CpuEngine
 bug 'noise of one half that is given back' DenoiseMix.h 's/ - denoiseMixCorrection\(a, b\)//' unit.DenoiseMix
 bug 'noise that is given back as error' DenoiseMix.h 's/residual \* residual - noise/residual * residual/' unit.DenoiseMix
 bug 'live weights from the half that is filtered' LiveDenoiser.cpp 's/levels_\[0\]\[1 - half\]\.radiance/levels_[0][half].radiance/' unit.LiveDenoiser

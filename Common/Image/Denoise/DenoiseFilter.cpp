@@ -71,9 +71,8 @@ void makeGuide(Half& half, BorderedPlane& variance, BorderedPlane& inside, const
     const std::size_t width = half.tones[0].width(), height = half.tones[0].height();
     std::array<BorderedPlane, 3> tones{BorderedPlane(half.tones[0]), BorderedPlane(half.tones[1]),
                                        BorderedPlane(half.tones[2])};
-    PlaneBlock block(width, height, 4);
-    half.guideVariance = block.next();
-    for (Plane& plane : half.guide) plane = block.next();
+    half.guideVariance = half.tones[0].alike();
+    for (Plane& plane : half.guide) plane = half.tones[0].alike();
     parallelFor(threads, height, [&](std::size_t y) {
         interruptionPoint();
         DenoiseGuideRow row;
@@ -237,12 +236,11 @@ float usualDepth(const Image& depth) {
 void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads) {
     const std::size_t width = halves.variance.width(), height = halves.variance.height();
     const Surfaces surfaces(input);
-    PlaneBlock block(width, height, std::size_t{kDenoiseBandwidths} * 2 * 5);
     for (std::size_t i = 0; i < kDenoiseBandwidths; ++i)
         for (std::size_t half = 0; half < 2; ++half) {
-            halves.ownFactors[i][half] = block.next();
-            halves.partnerFactors[i][half] = block.next();
-            for (Plane& plane : halves.filtered[i][half]) plane = block.next();
+            halves.ownFactors[i][half] = halves.variance.alike();
+            halves.partnerFactors[i][half] = halves.variance.alike();
+            for (Plane& plane : halves.filtered[i][half]) plane = halves.variance.alike();
         }
     const std::size_t columns = (width + kDenoiseTile - 1) / kDenoiseTile,
                       rows = (height + kDenoiseTile - 1) / kDenoiseTile;

@@ -38,12 +38,12 @@ struct DenoiseTile {
     float* scratch = nullptr;        // kDenoiseScratch values
 };
 
-// Distances of the rows that a patch needs, a ring per offset; mean distances of the patches of one row for both patch
-// sizes; weights of eight pixels, and these times a coordinate.
-inline constexpr int kDenoiseRing = 2 * shared::kDenoisePatchReach + 1;                     // rows
+// Distances of the rows that the patches of two rows need, a ring per offset; mean distances of these patches for both
+// patch sizes; weights of eight pixels.
+inline constexpr int kDenoiseRing = 2 * shared::kDenoisePatchReach + 2;                     // rows
 inline constexpr int kDenoiseDistances = kDenoiseTile + 2 * shared::kDenoisePatchReach + 2; // columns
 inline constexpr std::size_t kDenoiseScratch =
-    std::size_t{kDenoiseOffsets} * (kDenoiseRing * kDenoiseDistances + 2 * kDenoiseTile + 2 * 8);
+    std::size_t{kDenoiseOffsets} * (kDenoiseRing * kDenoiseDistances + 2 * 2 * kDenoiseTile + 8);
 static_assert(kDenoiseDistances % 8 == 0);
 
 // One row of a half whose guide is made. Pointers are to its first pixel; those that are read are into planes that have

@@ -20,12 +20,11 @@ namespace {
 
 constexpr double kFormulaError = 0.1; // of the formula for the error, beside its noise
 
-Half makeHalf(const Image& image, std::size_t threads) {
+Half makeHalf(const Image& image, const Plane& like, std::size_t threads) {
     Half half;
-    PlaneBlock block(image.width, image.height, 6);
     for (std::size_t c = 0; c < 3; ++c) {
-        half.radiance[c] = block.next();
-        half.tones[c] = block.next();
+        half.radiance[c] = like.alike();
+        half.tones[c] = like.alike();
         parallelFor(threads, image.height, [&](std::size_t y) {
             for (std::size_t x = 0; x < image.width; ++x) {
                 const float value = image.data[(y * image.width + x) * 3 + c];
@@ -110,11 +109,9 @@ void rawErrors(const Halves& halves, std::size_t y, float* errors) {
 Choice choose(const Halves& halves, std::size_t threads) {
     const std::size_t width = halves.variance.width(), height = halves.variance.height();
     const std::size_t candidates = halves.mayStayRaw() ? kDenoiseCandidates : kRawCandidate;
-    PlaneBlock results(width, height, kDenoiseCandidates), block(width, height, 6);
-    Choice chosen;
-    for (Plane& plane : chosen) plane = results.next();
-    ErrorPlanes planes{block.next(), block.next(), block.next(), block.next()};
-    Plane best = block.next(), least = block.next(); // candidate, and its error
+    const Plane& like = halves.variance;
+    ErrorPlanes planes{like.alike(), like.alike(), like.alike(), like.alike()};
+    Plane best = like.alike(), least = like.alike(); // candidate, and its error
     for (std::size_t i = 0; i < candidates; ++i) {
         parallelFor(threads, height, [&](std::size_t y) {
             float* errors = planes.errors.row(y);
@@ -133,8 +130,12 @@ Choice choose(const Halves& halves, std::size_t threads) {
                 }
         });
     }
+    Choice chosen;
+    for (Plane& plane : chosen) plane = like.alike();
     parallelFor(threads, height, [&](std::size_t y) {
-        for (std::size_t x = 0; x < width; ++x) chosen[static_cast<std::size_t>(best.row(y)[x])].row(y)[x] = 1;
+        for (std::size_t i = 0; i < kDenoiseCandidates; ++i)
+            for (std::size_t x = 0; x < width; ++x)
+                chosen[i].row(y)[x] = best.row(y)[x] == static_cast<float>(i) ? 1.0f : 0.0f;
     });
     return chosen;
 }
@@ -147,8 +148,8 @@ struct ResultSums {
     std::array<double, kDenoiseCandidates> weights{};
 };
 
-// One row of it, and of the squared errors.
-ResultSums finishRow(const Halves& halves, const Choice& weights, std::size_t y, Denoised& result, Planes& errors) {
+// One row of it, and of the squared errors, if these are wanted.
+ResultSums finishRow(const Halves& halves, const Choice& weights, std::size_t y, Denoised& result, Planes* errors) {
     const std::size_t width = result.picture.width;
     ResultSums sums;
     std::vector<double> pixelErrors(width, 0.0);
@@ -160,7 +161,7 @@ ResultSums finishRow(const Halves& halves, const Choice& weights, std::size_t y,
             result.halfA.data[at] = value.a.filtered;
             result.halfB.data[at] = value.b.filtered;
             result.picture.data[at] = value.mean;
-            errors[c].row(y)[x] = value.error;
+            if (errors != nullptr) (*errors)[c].row(y)[x] = value.error;
             const double unit = 1 / (double{value.mean} * value.mean + kRelativeFloor);
             pixelErrors[x] += value.error * unit;
             sums.errors.minimum += value.noise * unit;
@@ -173,7 +174,7 @@ ResultSums finishRow(const Halves& halves, const Choice& weights, std::size_t y,
     for (std::size_t i = 0; i < kDenoiseCandidates; ++i)
         for (std::size_t x = 0; x < width; ++x) {
             const float weight = weights[i].row(y)[x];
-            result.bandwidth.data[y * width + x] += weight * static_cast<float>(i);
+            if (errors != nullptr) result.bandwidth.data[y * width + x] += weight * static_cast<float>(i);
             sums.weights[i] += weight;
         }
     return sums;
@@ -182,7 +183,7 @@ ResultSums finishRow(const Halves& halves, const Choice& weights, std::size_t y,
 // By what the pixels around chose, so that no seam is seen where the choice changes.
 Choice blend(Choice weights, std::size_t threads) {
     const std::size_t width = weights[kRawCandidate].width(), height = weights[kRawCandidate].height();
-    Plane raw(width, height);
+    Plane raw = weights[kRawCandidate].alike();
     for (std::size_t y = 0; y < height; ++y) std::copy_n(weights[kRawCandidate].row(y), width, raw.row(y));
     boxMeans({&raw, 1}, shared::kDenoiseRawBlendReach, threads);
     boxMeans(weights, shared::kDenoiseBlendReach, threads);
@@ -197,34 +198,49 @@ Choice blend(Choice weights, std::size_t threads) {
     return weights;
 }
 
-void finish(const Halves& halves, Denoised& result, std::size_t threads) {
+void storeErrors(Planes& errors, Image& result, std::size_t threads) {
+    boxMeans(errors, shared::kDenoiseErrorReach, threads);
+    parallelFor(threads, result.height, [&](std::size_t y) {
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t x = 0; x < result.width; ++x)
+                result.data[(y * result.width + x) * 3 + c] = std::max(errors[c].row(y)[x], 0.0f);
+    });
+}
+
+void finish(Halves& halves, Denoised& result, std::size_t threads, bool details) {
     Choice weights = blend(choose(halves, threads), threads);
     if (halves.isMixed()) mixWithRaw(halves, weights, threads);
     const std::size_t width = result.picture.width, height = result.picture.height, pixels = width * height;
-    PlaneBlock block(width, height, 3);
-    Planes errors{block.next(), block.next(), block.next()};
+    Planes errors;
+    if (details) {
+        for (Plane& plane : errors) plane = halves.variance.alike();
+        result.bandwidth = Image(result.picture.width, result.picture.height, 1);
+    }
     std::vector<ResultSums> rows(height);
-    parallelFor(threads, height, [&](std::size_t y) { rows[y] = finishRow(halves, weights, y, result, errors); });
+    parallelFor(threads, height,
+                [&](std::size_t y) { rows[y] = finishRow(halves, weights, y, result, details ? &errors : nullptr); });
     DenoiseErrorSums sums;
     for (const ResultSums& row : rows) {
         sums += row.errors;
         for (std::size_t i = 0; i < kDenoiseCandidates; ++i)
             result.shares[i] += row.weights[i] / static_cast<double>(pixels);
     }
+    for (auto& candidate : halves.filtered) candidate = {}; // what is made next takes their memory
     if (halves.isGivenBack()) giveBack(halves, result, threads);
     result.relmse = denoisedRelMse(sums, pixels, halves.dependentSide);
-    boxMeans(errors, shared::kDenoiseErrorReach, threads);
-    parallelFor(threads, height, [&](std::size_t y) {
-        for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t x = 0; x < width; ++x)
-                result.error.data[(y * width + x) * 3 + c] = std::max(errors[c].row(y)[x], 0.0f);
-    });
+    if (!details) {
+        result.halfA = result.halfB = {};
+        return;
+    }
+    result.error = Image(result.picture.width, result.picture.height);
+    storeErrors(errors, result.error, threads);
 }
 
 // Of a tone of a half, summed over the channels.
 Plane toneVariance(const Halves& halves, std::size_t threads) {
-    Plane variance(halves.half[0].tones[0].width(), halves.half[0].tones[0].height());
+    Plane variance = halves.half[0].tones[0].alike();
     parallelFor(threads, variance.height(), [&](std::size_t y) {
+        std::fill_n(variance.row(y), variance.width(), 0.0f);
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t x = 0; x < variance.width(); ++x) {
                 const float difference = halves.half[0].tones[c].row(y)[x] - halves.half[1].tones[c].row(y)[x];
@@ -243,20 +259,20 @@ RelMseEstimate denoisedRelMse(const DenoiseErrorSums& sums, std::uint64_t pixels
     return {value / values, std::hypot(dependentSide * std::sqrt(sums.squares), kFormulaError * value) / values};
 }
 
-Denoised denoise(const DenoiseInput& input, std::uint32_t dependentSide, std::size_t threads) {
+Denoised denoise(const DenoiseInput& input, std::uint32_t dependentSide, std::size_t threads, bool details) {
     const std::uint32_t width = input.halfA.width, height = input.halfA.height;
     Halves halves;
-    halves.half[0] = makeHalf(input.halfA, threads);
-    halves.half[1] = makeHalf(input.halfB, threads);
+    const Plane like(width, height);
+    halves.half[0] = makeHalf(input.halfA, like, threads);
+    halves.half[1] = makeHalf(input.halfB, like, threads);
     halves.dependentSide = dependentSide;
     halves.samplesOfHalf = input.samplesOfHalf;
     halves.variance = toneVariance(halves, threads);
     filterHalves(halves, input, threads);
 
     Denoised result;
-    for (Image* image : {&result.picture, &result.halfA, &result.halfB, &result.error}) *image = Image(width, height);
-    result.bandwidth = Image(width, height, 1);
-    finish(halves, result, threads);
+    for (Image* image : {&result.picture, &result.halfA, &result.halfB}) *image = Image(width, height);
+    finish(halves, result, threads, details);
     return result;
 }
 

@@ -22,7 +22,8 @@ struct DenoiseInput {
 inline constexpr std::size_t kDenoiseCandidates = shared::kDenoiseBandwidths + 1;
 
 struct Denoised {
-    Image picture;      // the mean of both filtered halves
+    Image picture; // the mean of both filtered halves
+    // Details, without pixels where they are not wanted:
     Image halfA, halfB; // filtered, each by weights from the other
     Image error;        // estimated squared error of `picture`, averaged over some pixels
     Image bandwidth;    // one channel: the candidate that was chosen; between two where pixels around chose differently
@@ -45,6 +46,6 @@ RelMseEstimate denoisedRelMse(const DenoiseErrorSums& sums, std::uint64_t pixels
 
 // The noise of pixels of a square of `dependentSide` may be alike, as in ErrorEstimate.h. The same bits for any number
 // of threads (0: as many as the machine has). Whoever may call this thread's work off (Interruption.h) interrupts it.
-Denoised denoise(const DenoiseInput& input, std::uint32_t dependentSide, std::size_t threads = 0);
+Denoised denoise(const DenoiseInput& input, std::uint32_t dependentSide, std::size_t threads = 0, bool details = true);
 
 } // namespace rt::image

@@ -17,16 +17,18 @@ namespace {
 using shared::kDenoisePatchReach;
 using shared::uint;
 
+constexpr int kPatchesOfRow = 2 * kDenoiseOffsets * kDenoiseTile;
+
 // The parts of DenoiseTile::scratch.
 struct Scratch {
     float* ring;    // [offset][row mod kDenoiseRing][column]: distances of pixels
-    float* patches; // [patch size][column / 8][offset][lane]: mean distances of the patches of the row at hand
+    float* patches; // [of two rows][patch size][column / 8][offset][lane]: mean distances of patches
     float* weights; // Reach::weights
 
     explicit Scratch(float* memory)
         : ring(memory),
           patches(ring + kDenoiseOffsets * kDenoiseRing * kDenoiseDistances),
-          weights(patches + 2 * kDenoiseOffsets * kDenoiseTile) {}
+          weights(patches + 2 * kPatchesOfRow) {}
 
     float* rowOfRing(int offset, int row) const {
         return ring + (offset * kDenoiseRing + (row + kDenoiseRing) % kDenoiseRing) * kDenoiseDistances;
@@ -52,16 +54,24 @@ RT_FN void averageColumns(const float* columns, float* patches) {
     }
 }
 
-// Sums of the columns of patches of both sizes, of the pixels of a row and those at one offset. `ring` has the rows that
-// the larger ones need, the upper ones first.
-RT_CALL void sumColumns(const float* const (&ring)[kDenoiseRing], float* small, float* large) {
+// Sums of the columns of patches of both sizes, of the pixels of two rows and those at one offset.
+struct ColumnSums {
+    float small[2][kDenoiseDistances], large[2][kDenoiseDistances];
+};
+
+// `ring` has the rows that the larger patches need, the upper ones first; both rows have most of them in common.
+RT_CALL void sumColumns(const float* const (&ring)[kDenoiseRing], ColumnSums& sums) {
     for (int i = 0; i < kDenoiseDistances; i += kLaneCount) {
-        const Float8 middle = load(ring[2] + i) + load(ring[3] + i) + load(ring[4] + i);
-        store(small + i, middle);
-        store(large + i, middle + (load(ring[0] + i) + load(ring[1] + i)) + (load(ring[5] + i) + load(ring[6] + i)));
+        const Float8 middle = load(ring[3] + i) + load(ring[4] + i);
+        const Float8 upper = load(ring[2] + i) + middle, lower = middle + load(ring[5] + i);
+        const Float8 common = load(ring[1] + i) + (upper + load(ring[5] + i)) + load(ring[6] + i);
+        store(sums.small[0] + i, upper);
+        store(sums.small[1] + i, lower);
+        store(sums.large[0] + i, load(ring[0] + i) + common);
+        store(sums.large[1] + i, common + load(ring[7] + i));
     }
 }
-static_assert(kDenoiseRing == 7);
+static_assert(kDenoiseRing == 8);
 
 // Of a symmetric positive definite system, given by its lower triangle: L D L^T, with L in its place and 1 / D.
 template <int kCount>
@@ -165,21 +175,22 @@ RT_CALL void regress(const DenoiseTile& tile, const Reach& reach, const Eight& e
 }
 static_assert(kDenoiseSurfaceFeatures == 4);
 
-// Mean distances of patches: for each eight pixels of the row, by offset. First the columns of all offsets of a row are
-// summed, as what has just been stored takes long to load again at another place.
-RT_CALL void averageRow(Scratch scratch, int row) {
-    float small[kDenoiseRowOffsets][kDenoiseDistances], large[kDenoiseRowOffsets][kDenoiseDistances];
+// Mean distances of the patches of a row and the next: for each eight pixels, by offset. First the columns of all
+// offsets of a row are summed, as what has just been stored takes long to load again at another place.
+RT_CALL void averageRows(Scratch scratch, int row) {
+    ColumnSums sums[kDenoiseRowOffsets];
     for (int first = 0; first < kDenoiseOffsets; first += kDenoiseRowOffsets) {
         for (int i = 0; i < kDenoiseRowOffsets; ++i) {
             const float* ring[kDenoiseRing];
             for (int k = 0; k < kDenoiseRing; ++k) ring[k] = scratch.rowOfRing(first + i, row + k - kDenoisePatchReach);
-            sumColumns(ring, small[i], large[i]);
+            sumColumns(ring, sums[i]);
         }
-        for (int i = 0; i < kDenoiseRowOffsets; ++i) {
-            float* patches = scratch.patches + (first + i) * kLaneCount;
-            averageColumns<1>(small[i], patches);
-            averageColumns<kDenoisePatchReach>(large[i], patches + kDenoiseTile * kDenoiseOffsets);
-        }
+        for (int which = 0; which < 2; ++which)
+            for (int i = 0; i < kDenoiseRowOffsets; ++i) {
+                float* patches = scratch.patches + which * kPatchesOfRow + (first + i) * kLaneCount;
+                averageColumns<1>(sums[i].small[which], patches);
+                averageColumns<kDenoisePatchReach>(sums[i].large[which], patches + kDenoiseTile * kDenoiseOffsets);
+            }
     }
 }
 
@@ -193,13 +204,17 @@ void filterTile(const DenoiseTile& tile) {
     };
     for (int row = -kDenoisePatchReach; row < kDenoisePatchReach; ++row) measure(row);
     for (int row = 0; row < tile.rows; ++row) {
-        measure(row + kDenoisePatchReach);
-        averageRow(scratch, row);
+        if (row % 2 == 0) { // the last may be beyond the tile, but is in its margin
+            measure(row + kDenoisePatchReach);
+            measure(row + kDenoisePatchReach + 1);
+            averageRows(scratch, row);
+        }
         for (int column = 0; column < tile.columns; column += kLaneCount) {
             const int first = kDenoiseOrigin + row * kDenoisePitch + column;
             for (std::uint32_t i = 0; i < shared::kDenoiseBandwidths; ++i) {
                 const int size = shared::denoiseBandwidth(i).patchReach == 1 ? 0 : 1;
-                const float* patches = scratch.patches + (size * kDenoiseTile + column) * kDenoiseOffsets;
+                const float* patches =
+                    scratch.patches + row % 2 * kPatchesOfRow + (size * kDenoiseTile + column) * kDenoiseOffsets;
                 weigh(tile, patches, shared::denoisePerSquaredBandwidth(i), first, reach);
                 regress(tile, reach, {first, row * kDenoiseTile + column, row, i}, patches);
             }

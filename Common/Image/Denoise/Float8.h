@@ -12,6 +12,15 @@ namespace {
 
 inline constexpr int kLaneCount = 8;
 
+// Before a loop of few rounds that is to be none in the end, and one of kLaneCount rounds that is to be one vector.
+#if defined(__GNUC__) && !defined(__clang__)
+#define RT_UNROLL _Pragma("GCC unroll 17")
+#define RT_AS_VECTOR _Pragma("GCC unroll 1")
+#else
+#define RT_UNROLL
+#define RT_AS_VECTOR
+#endif
+
 #if defined(__GNUC__)
 
 // How vectors are passed depends on the instruction set, which does not matter within one object file.

@@ -74,8 +74,7 @@ struct CoarseResiduals {
 CoarseResiduals::CoarseResiduals(const Halves& halves, const Denoised& filtered, std::size_t channel,
                                  std::size_t threads) {
     const std::size_t width = filtered.picture.width, height = filtered.picture.height;
-    PlaneBlock block(width, height, planes.size());
-    for (Plane& plane : planes) plane = block.next();
+    for (Plane& plane : planes) plane = halves.half[0].radiance[channel].alike();
     parallelFor(threads, height, [&](std::size_t y) {
         const float *rawA = halves.half[0].radiance[channel].row(y), *rawB = halves.half[1].radiance[channel].row(y);
         const float *filteredA = &filtered.halfA.data[y * width * 3 + channel],

@@ -1,7 +1,7 @@
 #include "Common/Image/Denoise/Planes.h"
 
-#include <cassert>
 #include <cstdlib>
+#include <mutex>
 #include <new>
 #include <vector>
 
@@ -9,8 +9,6 @@
 #include "Common/Core/SystemMemory.h"
 
 namespace rt::image {
-
-Plane::Plane(std::size_t width, std::size_t height) : Plane(PlaneBlock(width, height, 1).next()) {}
 
 namespace {
 
@@ -31,15 +29,46 @@ std::shared_ptr<float> zeros(std::size_t bytes) {
 
 } // namespace
 
-PlaneBlock::PlaneBlock(std::size_t width, std::size_t height, std::size_t count)
-    : width_(width), height_(height), left_(count), next_(zeros(width * height * count * sizeof(float))) {}
+// Blocks of planes: one at first, then some at a time. It lives as long as any plane that it has given.
+class Plane::Memory {
+  public:
+    explicit Memory(std::size_t pixels) : pixels_(pixels) {}
 
-Plane PlaneBlock::next() {
-    assert(left_ > 0);
-    --left_;
-    Plane plane(width_, height_, next_);
-    next_ = std::shared_ptr<float>(next_, next_.get() + width_ * height_);
-    return plane;
+    float* take() {
+        const std::scoped_lock lock(mutex_);
+        if (free_.empty()) {
+            const std::size_t count = blocks_.empty() ? 1 : kPlanesOfBlock;
+            free_.reserve(free_.size() + blocks_.size() * kPlanesOfBlock + count); // giveBack() needs room for all
+            blocks_.push_back(zeros(count * pixels_ * sizeof(float)));
+            for (std::size_t i = count; i-- > 0;) free_.push_back(blocks_.back().get() + i * pixels_);
+        }
+        float* const plane = free_.back();
+        free_.pop_back();
+        return plane;
+    }
+    void giveBack(float* plane) {
+        const std::scoped_lock lock(mutex_);
+        free_.push_back(plane);
+    }
+
+  private:
+    static constexpr std::size_t kPlanesOfBlock = 8;
+    std::size_t pixels_;
+    std::mutex mutex_;
+    std::vector<std::shared_ptr<float>> blocks_;
+    std::vector<float*> free_;
+};
+
+Plane::Plane(std::size_t width, std::size_t height) : Plane(width, height, std::make_shared<Memory>(width * height)) {}
+
+Plane::Plane(std::size_t width, std::size_t height, std::shared_ptr<Memory> memory)
+    : width_(width),
+      height_(height),
+      memory_(std::move(memory)),
+      data_(memory_->take(), [owner = memory_](float* plane) { owner->giveBack(plane); }) {}
+
+Plane Plane::alike() const {
+    return Plane(width_, height_, memory_);
 }
 
 void addShifted(const float* values, std::ptrdiff_t shift, std::size_t width, float* __restrict sums) {
@@ -58,6 +87,7 @@ void boxMean(const Plane& plane, int reach, std::size_t y, std::vector<float>& c
     const InReach rows(y, distance, plane.height());
     const float rowShare = 1.0f / static_cast<float>(rows.count());
     columns.assign(width, 0.0f);
+    std::fill_n(means, width, 0.0f);
     for (std::size_t from = rows.first; from <= rows.last; ++from)
         addShifted(plane.row(from), 0, width, columns.data());
     for (int shift = -reach; shift <= reach; ++shift) addShifted(columns.data(), shift, width, means);
@@ -69,9 +99,8 @@ void boxMean(const Plane& plane, int reach, std::size_t y, std::vector<float>& c
 
 void boxMeans(std::span<Plane> planes, int reach, std::size_t threads) {
     const std::size_t height = planes.front().height();
-    PlaneBlock block(planes.front().width(), height, planes.size());
-    std::vector<Plane> means(planes.size());
-    for (Plane& plane : means) plane = block.next();
+    std::vector<Plane> means;
+    for (const Plane& plane : planes) means.push_back(plane.alike());
     parallelFor(threads, height, [&](std::size_t y) {
         std::vector<float> columns;
         for (std::size_t i = 0; i < planes.size(); ++i) boxMean(planes[i], reach, y, columns, means[i].row(y));

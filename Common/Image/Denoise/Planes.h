@@ -1,4 +1,4 @@
-// One channel of an image in a block of its own, and means over squares of pixels.
+// One channel of an image, and means over squares of pixels.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -9,12 +9,16 @@
 
 namespace rt::image {
 
+// Planes of one size share memory: the system gives it in large pages, and that of planes that are gone is used again,
+// as fresh pages take longer than to fill them.
 class Plane {
   public:
     Plane() = default;
     Plane(std::size_t width, std::size_t height); // of zeros
     Plane(Plane&&) = default;                     // not copied: both would have the same pixels
     Plane& operator=(Plane&&) = default;
+    // One of the same size, by the same memory; of any values.
+    Plane alike() const;
 
     std::size_t width() const { return width_; }
     std::size_t height() const { return height_; }
@@ -22,25 +26,12 @@ class Plane {
     const float* row(std::size_t y) const { return data_.get() + y * width_; }
 
   private:
-    friend class PlaneBlock;
-    Plane(std::size_t width, std::size_t height, std::shared_ptr<float> data)
-        : width_(width), height_(height), data_(std::move(data)) {}
+    class Memory;
+    Plane(std::size_t width, std::size_t height, std::shared_ptr<Memory> memory);
 
     std::size_t width_ = 0, height_ = 0;
-    std::shared_ptr<float> data_; // of a block that planes may share
-};
-
-// Memory for `count` planes of one size, of zeros, which lives as long as any of these. The system gives it in large
-// pages, and when it is first written, so to all threads that fill it: planes apart from each other took much of the
-// denoiser's time for pages alone.
-class PlaneBlock {
-  public:
-    PlaneBlock(std::size_t width, std::size_t height, std::size_t count);
-    Plane next();
-
-  private:
-    std::size_t width_, height_, left_;
-    std::shared_ptr<float> next_;
+    std::shared_ptr<Memory> memory_;
+    std::shared_ptr<float> data_; // goes back to it
 };
 
 using Planes = std::array<Plane, 3>;

@@ -15,8 +15,12 @@ namespace {
 using shared::kDenoiseReach;
 
 constexpr int kCoordinates = 3; // features that every tile has: 1, and coordinates from the pixel that is fitted
-constexpr int kWeightValues = 2 * kLaneCount;             // of a place, see Reach
 constexpr int kDenoiseRowOffsets = 2 * kDenoiseReach + 1; // of a row, and rows
+#if defined(__AVX512VL__)
+constexpr int kRowsAtOnce = 4; // of the normal equations: as many as registers hold the sums of
+#else
+constexpr int kRowsAtOnce = 2;
+#endif
 
 // From a pixel to those in reach, row by row, in a plane.
 struct Steps {
@@ -31,10 +35,14 @@ constexpr Steps kSteps;
 
 // What eight pixels have in reach, row by row, where one of them has any weight.
 struct Reach {
-    std::ptrdiff_t places[kDenoiseOffsets];  // in a plane
+    struct Place {
+        int inPlane;
+        float step; // the coordinate across
+    };
+    Place places[kDenoiseOffsets];
     std::ptrdiff_t ends[kDenoiseRowOffsets]; // of each row, in `places`
-    float* weights;             // [place][lane], and after each eight the same, times the coordinate across
-    Float8 total, across, down; // sums of weights, and of weights times coordinates
+    float* weights;                          // [place][lane]
+    Float8 total, across, down;              // sums of weights, and of weights times coordinates
     Float8 across2, acrossDown, down2;
 };
 
@@ -49,29 +57,27 @@ RT_CALL void weigh(const DenoiseTile& tile, const float* patches, float perSquar
     reach.total = reach.across = reach.down = reach.across2 = reach.acrossDown = reach.down2 = zero;
     std::ptrdiff_t count = 0;
     for (int row = 0; row < kDenoiseRowOffsets; ++row) {
-        const std::ptrdiff_t start = first + kSteps.at[row * kDenoiseRowOffsets];
+        const int start = first + kSteps.at[row * kDenoiseRowOffsets];
         const float *inside = tile.inside + start, *distances = patches + row * kDenoiseRowOffsets * kLaneCount;
         Float8 total = zero, across = zero, across2 = zero;
-        float* weights = reach.weights + count * kWeightValues;
-        float ofRow[kDenoiseRowOffsets * kLaneCount];
-        for (int i = 0; i < kDenoiseRowOffsets * kLaneCount; ++i)
-            ofRow[i] = shared::denoiseWeight(distances[i], perSquaredBandwidth);
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC unroll 17
-#endif
+        float* weights = reach.weights + count * kLaneCount;
+        RT_UNROLL
         for (int column = 0; column < kDenoiseRowOffsets; ++column) {
             const Float8 step = coordinate(column);
-            const Float8 weight = load(ofRow + column * kLaneCount) * load(inside + column);
+            float ofLanes[kLaneCount];
+            RT_AS_VECTOR
+            for (int lane = 0; lane < kLaneCount; ++lane)
+                ofLanes[lane] = shared::denoiseWeight(distances[column * kLaneCount + lane], perSquaredBandwidth);
+            const Float8 weight = load(ofLanes) * load(inside + column);
             const Float8 acrossWeight = weight * step;
             total = total + weight;
             across = across + acrossWeight;
             across2 = multiplyAdd(acrossWeight, step, across2);
             store(weights, weight);
-            store(weights + kLaneCount, acrossWeight);
-            reach.places[count] = start + column;
+            reach.places[count] = {start + column, shared::kDenoisePixel * static_cast<float>(column - kDenoiseReach)};
             const std::ptrdiff_t any = isAnyPositive(weight) ? 1 : 0;
             count += any;
-            weights += any * kWeightValues;
+            weights += any * kLaneCount;
         }
         const Float8 down = coordinate(row);
         reach.ends[row] = count;
@@ -84,41 +90,49 @@ RT_CALL void weigh(const DenoiseTile& tile, const float* patches, float perSquar
     }
 }
 
-// A row of the normal equations, and those after it, of the surface's features from the `kFeature`th on: sums of weight
-// x this feature x (1, coordinates, each feature from this one on).
+// Rows of the normal equations, and those after them, of the surface's features from the `kFeature`th on: sums of weight
+// x a feature x (1, coordinates, each feature from this one on).
 template <int kFeature, int kCount>
-RT_CALL void sumFeature(const DenoiseTile& tile, const Reach& reach, Float8 (&products)[kCount][kCount]) {
+RT_CALL void sumFeatures(const DenoiseTile& tile, const Reach& reach, Float8 (&products)[kCount][kCount]) {
     constexpr int kRow = kCoordinates + kFeature, kLater = kCount - kRow;
-    Float8 total = broadcast(0), across = broadcast(0), down = broadcast(0), sums[kLater];
+    constexpr int kRows = kLater < kRowsAtOnce ? kLater : kRowsAtOnce;
+    Float8 total[kRows]{}, across[kRows]{}, down[kRows]{}, sums[kRows][kLater]{};
     const float* features[kLater];
-    for (int i = 0; i < kLater; ++i) {
-        sums[i] = broadcast(0);
-        features[i] = tile.features[kFeature + i];
-    }
+    for (int i = 0; i < kLater; ++i) features[i] = tile.features[kFeature + i];
     const float* weights = reach.weights;
     std::ptrdiff_t k = 0;
     for (int row = 0; row < kDenoiseRowOffsets; ++row) {
-        Float8 ofRow = broadcast(0);
-        for (; k < reach.ends[row]; ++k, weights += kWeightValues) {
-            const std::ptrdiff_t place = reach.places[k];
-            const Float8 own = load(features[0] + place);
-            const Float8 weighed = load(weights) * own;
-            ofRow = ofRow + weighed;
-            across = multiplyAdd(load(weights + kLaneCount), own, across);
-            sums[0] = multiplyAdd(weighed, own, sums[0]);
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC unroll 10
-#endif
-            for (int i = 1; i < kLater; ++i) sums[i] = multiplyAdd(weighed, load(features[i] + place), sums[i]);
+        Float8 ofRow[kRows]{};
+        for (; k < reach.ends[row]; ++k, weights += kLaneCount) {
+            const std::ptrdiff_t place = reach.places[k].inPlane;
+            const Float8 weight = load(weights), step = broadcast(reach.places[k].step);
+            Float8 own[kLater];
+            RT_UNROLL
+            for (int i = 0; i < kLater; ++i) own[i] = load(features[i] + place);
+            RT_UNROLL
+            for (int i = 0; i < kRows; ++i) {
+                const Float8 weighed = weight * own[i];
+                ofRow[i] = ofRow[i] + weighed;
+                across[i] = multiplyAdd(weighed, step, across[i]);
+                RT_UNROLL
+                for (int j = i; j < kLater; ++j) sums[i][j] = multiplyAdd(weighed, own[j], sums[i][j]);
+            }
         }
-        total = total + ofRow;
-        down = multiplyAdd(ofRow, coordinate(row), down);
+        RT_UNROLL
+        for (int i = 0; i < kRows; ++i) {
+            total[i] = total[i] + ofRow[i];
+            down[i] = multiplyAdd(ofRow[i], coordinate(row), down[i]);
+        }
     }
-    products[kRow][0] = total;
-    products[kRow][1] = across;
-    products[kRow][2] = down;
-    for (int i = 0; i < kLater; ++i) products[kRow + i][kRow] = sums[i];
-    if constexpr (kRow + 1 < kCount) sumFeature<kFeature + 1, kCount>(tile, reach, products);
+    RT_UNROLL
+    for (int i = 0; i < kRows; ++i) {
+        products[kRow + i][0] = total[i];
+        products[kRow + i][1] = across[i];
+        products[kRow + i][2] = down[i];
+        RT_UNROLL
+        for (int j = i; j < kLater; ++j) products[kRow + j][kRow + i] = sums[i][j];
+    }
+    if constexpr (kRow + kRows < kCount) sumFeatures<kFeature + kRows, kCount>(tile, reach, products);
 }
 
 // The normal equations: lower triangle of the sums of weight x two features.
@@ -130,7 +144,7 @@ RT_FN void sumProducts(const DenoiseTile& tile, const Reach& reach, Float8 (&pro
     products[2][0] = reach.down;
     products[2][1] = reach.acrossDown;
     products[2][2] = reach.down2;
-    if constexpr (kCount > kCoordinates) sumFeature<0, kCount>(tile, reach, products);
+    if constexpr (kCount > kCoordinates) sumFeatures<0, kCount>(tile, reach, products);
 }
 static_assert(kCoordinates == 3);
 
@@ -144,15 +158,13 @@ RT_CALL void sumFitted(const DenoiseTile& tile, const Reach& reach, const Float8
     std::ptrdiff_t k = 0;
     for (int row = 0; row < kDenoiseRowOffsets; ++row) {
         const Float8 ofRow = multiplyAdd(solution[2], coordinate(row), solution[0]);
-        for (; k < reach.ends[row]; ++k, weights += kWeightValues) {
-            const std::ptrdiff_t place = reach.places[k];
-            Float8 fit = ofRow;
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC unroll 10
-#endif
+        for (; k < reach.ends[row]; ++k, weights += kLaneCount) {
+            const std::ptrdiff_t place = reach.places[k].inPlane;
+            Float8 fit = multiplyAdd(solution[1], broadcast(reach.places[k].step), ofRow);
+            RT_UNROLL
             for (int i = kCoordinates; i < kCount; ++i)
                 fit = multiplyAdd(solution[i], load(tile.features[i - kCoordinates] + place), fit);
-            const Float8 weighed = multiplyAdd(load(weights + kLaneCount), solution[1], load(weights) * fit);
+            const Float8 weighed = load(weights) * fit;
             r = multiplyAdd(weighed, load(red + place), r);
             g = multiplyAdd(weighed, load(green + place), g);
             b = multiplyAdd(weighed, load(blue + place), b);
