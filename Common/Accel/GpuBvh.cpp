@@ -202,8 +202,8 @@ void checkRoom(std::size_t items) {
     }
 }
 
-// Whether a leaf that is not alone has near spheres of the world whose box most rays enter, a ground say. Their test takes
-// long: all lanes make it together, and first.
+// Whether a leaf that is not alone has near spheres of the world whose box most rays enter, a ground say. Their test
+// takes long: all lanes make it together, and first.
 bool Flattener::isForList(const SceneTree& tree, const BvhNode& leaf) const {
     constexpr std::uint32_t kMaxListed = 4;
     return tree.geometry == 0 && tree.items.kind(tree.bvh.items[leaf.first]) == LeafKind::NearSphere &&

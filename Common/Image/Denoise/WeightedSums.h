@@ -90,8 +90,8 @@ RT_CALL void weigh(const DenoiseTile& tile, const float* patches, float perSquar
     }
 }
 
-// Rows of the normal equations, and those after them, of the surface's features from the `kFeature`th on: sums of weight
-// x a feature x (1, coordinates, each feature from this one on).
+// Rows of the normal equations, and those after them, of the surface's features from the `kFeature`th on: sums of
+// weight x a feature x (1, coordinates, each feature from this one on).
 template <int kFeature, int kCount>
 RT_CALL void sumFeatures(const DenoiseTile& tile, const Reach& reach, Float8 (&products)[kCount][kCount]) {
     constexpr int kRow = kCoordinates + kFeature, kLater = kCount - kRow;
