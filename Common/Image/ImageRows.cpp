@@ -12,12 +12,16 @@ ImageRows::ImageRows(const Image& image)
           std::copy_n(image.pixel(0, y), row.size(), row.begin());
       }) {}
 
-Image toImage(const ImageRows& rows, std::size_t threads) {
-    Image image(rows.width, rows.height, rows.channels);
+void readInto(Image& image, const ImageRows& rows, std::size_t threads) {
     parallelFor(threads, rows.height, [&](std::size_t row) {
         const auto y = static_cast<std::uint32_t>(row);
         rows.read(y, {image.pixel(0, y), rows.rowValues()});
     });
+}
+
+Image toImage(const ImageRows& rows, std::size_t threads) {
+    Image image(rows.width, rows.height, rows.channels);
+    readInto(image, rows, threads);
     return image;
 }
 

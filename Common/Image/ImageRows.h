@@ -26,7 +26,8 @@ struct ImageRows {
     std::size_t rowValues() const { return std::size_t{width} * channels; }
 };
 
-// All rows, read by so many threads at a time (0: as many as the machine has).
+// All rows, read by so many threads at a time (0: all of the machine), into an image of their size or a new one.
+void readInto(Image& image, const ImageRows& rows, std::size_t threads);
 Image toImage(const ImageRows& rows, std::size_t threads = 1);
 
 // The same image with every value changed; `change` is called for one value at a time.

@@ -1,11 +1,9 @@
 // The denoisers of Common/Image/Denoise on the film of any engine.
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <utility>
 
 #include "Common/Core/Interruption.h"
-#include "Common/Core/Parallel.h"
 #include "Common/Image/Denoise/LiveDenoiser.h"
 #include "Common/Image/FilmRows.h"
 #include "Common/Render/PictureDenoiser.h"
@@ -19,13 +17,6 @@ constexpr double kRowsSeconds = 0.03; // that the features of some rows may take
 
 void putRows(const image::Image& rows, std::uint32_t first, image::Image& all) {
     std::copy(rows.data.begin(), rows.data.end(), all.pixel(0, first));
-}
-
-void readRows(const image::ImageRows& rows, std::size_t threads, image::Image& all) {
-    if (all.data.empty()) all = image::Image(rows.width, rows.height, rows.channels);
-    parallelFor(threads, rows.height, [&](std::size_t y) {
-        rows.read(static_cast<std::uint32_t>(y), {all.pixel(0, static_cast<std::uint32_t>(y)), rows.rowValues()});
-    });
 }
 
 class HostDenoiser final : public PictureDenoiser {
@@ -51,8 +42,10 @@ class HostDenoiser final : public PictureDenoiser {
   private:
     image::Denoised filter(const image::Film& film, bool isLive, bool details) {
         const EngineReport report = engine_.report();
-        readRows(image::halfRows(film, 0), report.threads, input_.halfA);
-        readRows(image::halfRows(film, 1), report.threads, input_.halfB);
+        for (image::Image* half : {&input_.halfA, &input_.halfB}) { // whose memory stays
+            if (half->data.empty()) *half = image::Image(film.desc().width, film.desc().height);
+            image::readInto(*half, image::halfRows(film, half == &input_.halfA ? 0 : 1), report.threads);
+        }
         input_.samplesOfHalf = std::uint64_t{film.minReplicateSamples()} * (film.desc().replicates / 2);
         if (!isLive) return image::denoise(input_, dependentSide(report.features), report.threads, details);
         image::Denoised result;

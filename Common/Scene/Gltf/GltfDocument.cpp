@@ -92,11 +92,6 @@ int GltfDocument::addOf(const char* extension, const char* array, OrderedJson el
     return static_cast<int>(all.size()) - 1;
 }
 
-void GltfDocument::require(const std::string& extension) {
-    used_.insert(extension);
-    required_.insert(extension);
-}
-
 int GltfDocument::addView(std::span<const std::byte> bytes, int target) {
     while (buffer_.size() % 4 != 0) buffer_.push_back({});
     OrderedJson view = {{"buffer", 0}, {"byteOffset", buffer_.size()}, {"byteLength", bytes.size()}};
@@ -181,7 +176,6 @@ int GltfDocument::addImage(std::span<const std::byte> content, const std::string
 
 void GltfDocument::write() {
     if (!used_.empty()) root_["extensionsUsed"] = used_;
-    if (!required_.empty()) root_["extensionsRequired"] = required_;
     if (!buffer_.empty()) {
         OrderedJson buffer = {{"byteLength", buffer_.size()}};
         if (!isBinary_) buffer["uri"] = toUri(stem_ + ".bin");

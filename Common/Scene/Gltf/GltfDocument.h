@@ -51,7 +51,6 @@ class GltfDocument {
     // The same for the array of an extension of the document.
     int addOf(const char* extension, const char* array, OrderedJson element);
     void use(const std::string& extension) { used_.insert(extension); }
-    void require(const std::string& extension);
     OrderedJson& root() { return root_; }
 
     // Accessors of vertices; `hasBounds`: says what the least and largest components are.
@@ -78,7 +77,7 @@ class GltfDocument {
     const std::string stem_; // begins the names of files beside
     OrderedJson root_;
     std::vector<std::byte> buffer_;
-    std::set<std::string> used_, required_; // extensions
+    std::set<std::string> used_; // extensions
     std::map<std::filesystem::path, std::vector<std::byte>> beside_;
     std::set<std::string> names_; // of files beside, in lower case
 };
