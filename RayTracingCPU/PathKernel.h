@@ -74,8 +74,8 @@ SeenSurfaces seenBy(const KernelContext& context, const AovTask& task, const Ray
     return seen;
 }
 
-// Calls see(x, what it sees) for each of samples from..to - 1 of pixels begin..end - 1 of the task's row, at most
-// kSeenTogether of them.
+// Calls see(x, what it sees) for samples.x to samples.y - 1 of the pixels columns.x to columns.y - 1 of the task's row,
+// at most kSeenTogether of them.
 template <class See>
 void seeSamples(const KernelContext& context, const AovTask& task, uvec2 columns, uvec2 samples, const See& see) {
     const uint inPixel = samples.y - samples.x, count = (columns.y - columns.x) * inPixel;

@@ -101,6 +101,8 @@ void testLeaf(TracedRay r, uint leaf, inout Nearest nearest) {
             vec3 motion = vec3(0.0f);
             if (has(kFeatures, kFeatureMovingSpheres)) motion = constants.tree.sphereMotions.at[i].xyz;
             vec4 sphere = constants.tree.spheres.at[i];
+            // Asked although a ground is listed and no leaf may have a near sphere: without this branch drivers make
+            // slower programs (docs/measurements/2026-11-30-gpu-since-the-house.md).
             float t = sphere.w < 0.0f ? testNearSphere(r, sphere, constants.tree.sphereIndices.at[i], nearest.t)
                                       : testSphere(r, sphere, motion, nearest.t);
             acceptSphere(nearest, t, i);
