@@ -117,7 +117,7 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
         };
         seeSamples(context, task, {begin, end}, {0u, first}, addFirst);
         const std::uint32_t count = isNarrow(range) ? first : task.count;
-        seeSamples(context, task, {begin, end}, {first, count}, add);
+        if (count > first) seeSamples(context, task, {begin, end}, {first, count}, add);
         const float scale = 1.0f / static_cast<float>(count);
         for (std::uint32_t x = begin; x < end; ++x) {
             keepFeatures(task.first, x, sums[x - begin].first, scale);

@@ -57,8 +57,8 @@ struct alignas(32) SphereBlock {
     std::uint32_t primitive[kWidth]; // index into the scene's array, kNone for an empty lane
 };
 
-// Those whose power is known, see shared::Sphere; few of any scene. Beside them others may stand, whose power is
-// infinite.
+// Near spheres of Shapes.h, whose power shared::Sphere knows; few of any scene. In a list, lanes that they leave may
+// have other spheres, of infinite power.
 struct alignas(32) NearSphereBlock {
     float center[3][kWidth];
     float radius[kWidth];

@@ -28,7 +28,7 @@ static_assert(sizeof(shared::TreeQuad) == 64 && sizeof(shared::TreeTriangle) == 
 
 vec4 sphereVector(const AccelInput& input, std::uint32_t index) {
     const shared::Sphere& sphere = input.spheres[index];
-    return vec4(sphere.center, sphere.power < shared::kInfinity ? -sphere.radius : sphere.radius);
+    return vec4(sphere.center, sphereKind(input, index) == LeafKind::NearSphere ? -sphere.radius : sphere.radius);
 }
 
 vec4 motionVector(const AccelInput& input, std::uint32_t index) {
@@ -113,7 +113,7 @@ LinearLists makeLists(const AccelInput& input, const shared::Geometry& world) {
     };
     for (const bool areNear : {true, false})
         for (std::uint32_t i = world.firstSphere; i < world.firstSphere + world.sphereCount; ++i)
-            if ((input.spheres[i].power < shared::kInfinity) == areNear) addSphere(lists, input, i);
+            if ((sphereKind(input, i) == LeafKind::NearSphere) == areNear) addSphere(lists, input, i);
     std::vector<std::uint32_t> slanted; // quads
     for (std::uint32_t i = world.firstQuad; i < world.firstQuad + world.quadCount; ++i) {
         if (!perpendicularAxis(input.quads[i])) slanted.push_back(i);

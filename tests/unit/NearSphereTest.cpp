@@ -2,8 +2,10 @@
 // and a form factor, by the shared formula and by every traversal. The spheres are not those of the rounded records but
 // those that were authored.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +13,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "Common/Accel/GpuBvh.h"
 #include "Common/Scene/Compiler/LightTable.h"
 #include "Common/Scene/SpherePower.h"
 #include "Common/Shared/Base/Sampling.h"
@@ -193,6 +196,21 @@ TEST(NearSphere, LeavesHitsOnSpheresBesideItAsTheyAre) {
             ASSERT_EQ(hits[i].t, expected[i].t);
             ASSERT_EQ(hits[i].primitive, expected[i].primitive);
         }
+    }
+}
+
+TEST(NearSphere, ComesFirstInListsOfDevices) {
+    Geometry geometry;
+    geometry.addSphere(vec3(5.0f, 0.0f, 0.0f), 1.0f);
+    geometry.addSphere(vec3(0.0f, -100.0f, 0.0f), 100.0f); // the origin of coordinates is on it
+    geometry.addSphere(vec3(0.0f, 0.0f, 9.0f), 2.0f);
+    const LinearLists lists = buildGpuBvh(geometry.input())->lists;
+    ASSERT_EQ(lists.nearSpheres, 1u);
+    ASSERT_EQ(lists.spheres, 2u);
+    const std::uint32_t order[] = {1, 0, 2};
+    for (std::size_t i = 0; i < std::size(order); ++i) {
+        EXPECT_EQ(std::bit_cast<std::uint32_t>(lists.vectors[2 * i + 1].w), order[i]);
+        EXPECT_EQ(lists.vectors[2 * i].w < 0, i == 0); // the radius
     }
 }
 

@@ -148,7 +148,7 @@ struct ResultSums {
     std::array<double, kDenoiseCandidates> weights{};
 };
 
-// One row of it, and of the squared errors, if these are wanted.
+// One row of it; where there are planes for squared errors, of these and of the bandwidth, too.
 ResultSums finishRow(const Halves& halves, const Choice& weights, std::size_t y, Denoised& result, Planes* errors) {
     const std::size_t width = result.picture.width;
     ResultSums sums;
@@ -236,11 +236,9 @@ void finish(Halves& halves, Denoised& result, std::size_t threads, bool details)
     storeErrors(errors, result.error, threads);
 }
 
-// Of a tone of a half, summed over the channels.
-Plane toneVariance(const Halves& halves, std::size_t threads) {
-    Plane variance = halves.half[0].tones[0].alike();
+// Adds that of a tone of a half, over the channels, to a plane of zeros.
+void addToneVariance(const Halves& halves, Plane& variance, std::size_t threads) {
     parallelFor(threads, variance.height(), [&](std::size_t y) {
-        std::fill_n(variance.row(y), variance.width(), 0.0f);
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t x = 0; x < variance.width(); ++x) {
                 const float difference = halves.half[0].tones[c].row(y)[x] - halves.half[1].tones[c].row(y)[x];
@@ -248,7 +246,6 @@ Plane toneVariance(const Halves& halves, std::size_t threads) {
             }
     });
     boxMeans({&variance, 1}, shared::kDenoiseVarianceReach, threads);
-    return variance;
 }
 
 } // namespace
@@ -262,12 +259,12 @@ RelMseEstimate denoisedRelMse(const DenoiseErrorSums& sums, std::uint64_t pixels
 Denoised denoise(const DenoiseInput& input, std::uint32_t dependentSide, std::size_t threads, bool details) {
     const std::uint32_t width = input.halfA.width, height = input.halfA.height;
     Halves halves;
-    const Plane like(width, height);
-    halves.half[0] = makeHalf(input.halfA, like, threads);
-    halves.half[1] = makeHalf(input.halfB, like, threads);
+    halves.variance = Plane(width, height); // whose memory all planes share
+    halves.half[0] = makeHalf(input.halfA, halves.variance, threads);
+    halves.half[1] = makeHalf(input.halfB, halves.variance, threads);
     halves.dependentSide = dependentSide;
     halves.samplesOfHalf = input.samplesOfHalf;
-    halves.variance = toneVariance(halves, threads);
+    addToneVariance(halves, halves.variance, threads);
     filterHalves(halves, input, threads);
 
     Denoised result;
