@@ -7,6 +7,7 @@
 
 #include "Common/Image/Denoise/DenoiseFilter.h"
 #include "Common/Image/Metrics.h"
+#include "Common/Shared/Denoise/DenoiseChoice.h"
 #include "Common/Shared/Denoise/DenoiseMix.h"
 #include "Common/Vulkan/Barrier.h"
 #include "Common/Vulkan/Pipelines.h"
@@ -49,6 +50,8 @@ Shader shaderOf(DenoisePass pass) {
             return Shader::DenoiseFit;
         case DenoisePass::Errors:
             return Shader::DenoiseErrors;
+        case DenoisePass::Choice:
+            return Shader::DenoiseChoice;
         case DenoisePass::Mix:
             return Shader::DenoiseMix;
         case DenoisePass::Blend:
@@ -136,9 +139,9 @@ DeviceDenoiser::DeviceDenoiser(vulkan::VulkanContext& context, DenoisePipelines&
     filtered_ = make(2 * std::max(bordered, kDenoiseBandwidths * pixels_) * kFourFloats);
     values_ = make(pixels_ * kFourFloats);
     means_ = make(pixels_ * kFourFloats);
-    kept_ = make(pixels_ * sizeof(float));
+    kept_ = make(2 * pixels_ * sizeof(float));
     depthCounts_ = make(shared::kDepthDigits * sizeof(std::uint32_t));
-    sums_ = make(std::size_t{groups().width} * groups().height * shared::kDenoiseSums * sizeof(float));
+    sums_ = make(groupCount() * (shared::kDenoiseSums + shared::kDenoiseMixSums) * sizeof(float));
 }
 
 void DeviceDenoiser::setSurfaces(const image::Image& albedo, const image::Image& normal, const image::Image& depth) {
@@ -197,6 +200,10 @@ float DeviceDenoiser::findUsualDepth() {
 
 VkExtent3D DeviceDenoiser::groups() const {
     return {groupsFor(width_, shared::kDenoiseColumns), groupsFor(height_, shared::kDenoiseRows), 1};
+}
+
+std::size_t DeviceDenoiser::groupCount() const {
+    return std::size_t{groups().width} * groups().height;
 }
 
 template <class Launch>
@@ -260,15 +267,10 @@ bool DeviceDenoiser::run(std::uint64_t samplesOfHalf, std::uint32_t dependentSid
     runPass(DenoisePass::Features, launch,
             {groupsFor(width_, shared::kDenoiseTile), groupsFor(height_, shared::kDenoiseTile), 1});
     if (!fit(launch, cancel)) return false;
-    runPass(DenoisePass::Errors, launch, groups());
-    launch.use = shared::kMeansAsTheyAre;
-    runPass(DenoisePass::Mean, launch, groups());
-    runPass(DenoisePass::Mix, launch, groups());
-    runPass(DenoisePass::Blend, launch, groups());
+    for (const DenoisePass pass : {DenoisePass::Errors, DenoisePass::Choice, DenoisePass::Mix, DenoisePass::Blend})
+        runPass(pass, launch, groups());
     if (samplesOfHalf >= shared::kDenoiseCoarseSamples)
         for (const DenoisePass pass : {DenoisePass::Coarse, DenoisePass::GiveBack}) runPass(pass, launch, groups());
-    launch.use = shared::kMeansPositive;
-    runPass(DenoisePass::Mean, launch, groups());
     readSums(dependentSide);
     return true;
 }
@@ -276,7 +278,7 @@ bool DeviceDenoiser::run(std::uint64_t samplesOfHalf, std::uint32_t dependentSid
 // ---- results -------------------------------------------------------------------------------------------------------
 
 void DeviceDenoiser::readSums(std::uint32_t dependentSide) {
-    std::vector<float> groups(sums_.bytes() / sizeof(float));
+    std::vector<float> groups(groupCount() * shared::kDenoiseSums);
     vulkan::download(context_, sums_, std::as_writable_bytes(std::span(groups)));
     image::DenoiseErrorSums sums;
     shares_ = {};
@@ -294,7 +296,7 @@ image::Image DeviceDenoiser::read(const vulkan::Buffer& from, std::uint32_t chan
     return image;
 }
 
-image::Denoised DeviceDenoiser::read(bool details) const {
+image::Denoised DeviceDenoiser::read(bool details) {
     image::Denoised result;
     result.relmse = relmse_;
     result.shares = shares_;
@@ -303,6 +305,9 @@ image::Denoised DeviceDenoiser::read(bool details) const {
     result.halfA = read(features_, 3, pixels_ * kThreeFloats);
     result.halfB = read(features_, 3, 2 * pixels_ * kThreeFloats);
     result.bandwidth = read(kept_, 1, 0);
+    DenoiseLaunch launch = makeLaunch();
+    launch.use = shared::kMeansPositive;
+    runPass(DenoisePass::Mean, launch, groups());
     const image::Image errors = read(means_, 4, 0);
     result.error = image::Image(width_, height_);
     for (std::size_t i = 0; i < pixels_; ++i) std::copy_n(&errors.data[4 * i], 3, &result.error.data[3 * i]);

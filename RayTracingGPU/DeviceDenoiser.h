@@ -34,6 +34,7 @@ enum class DenoisePass {
     Features,
     Fit,
     Errors,
+    Choice,
     Mix,
     Blend,
     Coarse,
@@ -43,10 +44,10 @@ enum class DenoisePass {
     LivePrepare,
     Live
 };
-inline constexpr std::size_t kDenoisePasses = 15;
+inline constexpr std::size_t kDenoisePasses = 16;
 inline constexpr std::array<const char*, kDenoisePasses> kDenoisePassNames{
-    "depths", "prepare", "mean",      "guide",   "features",      "fit",          "errors", "mix",
-    "blend",  "coarse",  "give_back", "history", "history_merge", "live_prepare", "live"};
+    "depths", "prepare", "mean",   "guide",     "features", "fit",           "errors",       "choice",
+    "mix",    "blend",   "coarse", "give_back", "history",  "history_merge", "live_prepare", "live"};
 
 // The compiled shaders, for pictures of any size. Each is compiled when it is first needed.
 class DenoisePipelines {
@@ -94,7 +95,7 @@ class DeviceDenoiser {
     // Filters the halves by final quality, in launches as short as a window needs them. False: cancelled.
     bool run(std::uint64_t samplesOfHalf, std::uint32_t dependentSide, const std::atomic<bool>* cancel = nullptr);
     // What it made; the picture alone, or all details.
-    image::Denoised read(bool details) const;
+    image::Denoised read(bool details);
     // Filters the halves by live quality, in one launch, and what that made. With a history, they take over what the
     // picture before has left, and leave what they have.
     void runLive(const HistoryStep* history = nullptr);
@@ -107,6 +108,7 @@ class DeviceDenoiser {
 
   private:
     VkExtent3D groups() const; // of the image
+    std::size_t groupCount() const;
     template <class Launch>
     void runPass(DenoisePass pass, const Launch& launch, const VkExtent3D& groups);
     shared::DenoiseLaunch makeLaunch() const;

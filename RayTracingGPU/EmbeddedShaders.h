@@ -32,6 +32,7 @@
     X(DenoiseFeatures, DenoiseFeatures_comp)          \
     X(DenoiseFit, DenoiseFit_comp)                    \
     X(DenoiseErrors, DenoiseErrors_comp)              \
+    X(DenoiseChoice, DenoiseChoice_comp)              \
     X(DenoiseMix, DenoiseMix_comp)                    \
     X(DenoiseBlend, DenoiseBlend_comp)                \
     X(DenoiseCoarse, DenoiseCoarse_comp)              \

@@ -41,7 +41,7 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     uint lane = gl_LocalInvocationIndex;
     sharedErrors[lane] = sharedShares[lane] = vec4(0.0f);
-    if (launch.mixed != 0u) loadCells(kDenoiseMixSums);
+    if (launch.mixed != 0u) loadCells(kMixOfFilter);
     if (isInside(pixel)) {
         vec4 shares = sharesAt(pixel);
         sharedShares[lane] = shares;
@@ -54,7 +54,7 @@ void main() {
         sharedShares[lane] += sharedShares[lane + other];
     }
     if (lane != 0u) return;
-    uint at = firstSumOf(ivec2(gl_WorkGroupID.xy));
+    uint at = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * kDenoiseSums;
     for (int i = 0; i < 4; i++) {
         launch.sums.at[at + i] = sharedErrors[0][i];
         launch.sums.at[at + 4 + i] = sharedShares[0][i];

@@ -77,5 +77,5 @@ void main() {
     barrier();
     for (int at = lane; at < kRows * kDenoiseColumns; at += kDenoiseGroupSize) sumRow(at);
     barrier();
-    writeMix(isInside(pixel) ? finish(pixel) : vec2(0.0f), kDenoiseCoarseSums);
+    writeMix(isInside(pixel) ? finish(pixel) : vec2(0.0f), pixel, kMixOfResidual);
 }

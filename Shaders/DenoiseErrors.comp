@@ -1,4 +1,4 @@
-// By how much each candidate seems to be off, in tones, of each pixel alone: what it is chosen by.
+// By how much each candidate seems to be off, in tones, of each pixel alone; and what tells which pixels are alike.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
@@ -24,6 +24,14 @@ float candidateError(uint candidate, ivec2 pixel) {
     return error;
 }
 
+// Normal and depth, scaled.
+vec4 shapeAt(ivec2 pixel) {
+    uint at = pixelIndex(pixel) * kSurfaceValues + 3u;
+    return vec4(denoiseNormal(launch.surfaces.at[at]), denoiseNormal(launch.surfaces.at[at + 1u]),
+                denoiseNormal(launch.surfaces.at[at + 2u]),
+                denoiseDepth(launch.surfaces.at[at + 3u], launch.usualDepth));
+}
+
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (!isInside(pixel)) return;
@@ -31,4 +39,5 @@ void main() {
     for (uint candidate = 0u; candidate < launch.candidates; candidate++)
         errors[candidate] = candidateError(candidate, pixel);
     launch.values.at[pixelIndex(pixel)] = errors;
+    launch.guides.at[planeIndex(pixel, 0)] = shapeAt(pixel);
 }

@@ -14,7 +14,7 @@ vec3 givenBack(vec3 filtered, vec3 residual) {
 }
 
 void main() {
-    loadCells(kDenoiseCoarseSums);
+    loadCells(kMixOfResidual);
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (!isInside(pixel)) return;
     float share = mixShare(pixel);

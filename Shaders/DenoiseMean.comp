@@ -8,18 +8,12 @@
 
 layout(local_size_x = kDenoiseColumns, local_size_y = kDenoiseRows) in;
 
-const int kMaxReach = max(kDenoiseVarianceReach, max(kDenoiseChoiceReach, kDenoiseErrorReach));
+const int kMaxReach = max(kDenoiseVarianceReach, kDenoiseErrorReach);
 const int kColumns = kDenoiseColumns + 2 * kMaxReach; // of pixels in reach
 const int kRows = kDenoiseRows + 2 * kMaxReach;
 
-shared vec4 values[kRows * kColumns];           // 0 outside of the image
-shared vec4 rowSums[kRows * kDenoiseColumns];   // over the pixels in reach of each column
-shared vec4 otherSums[kRows * kDenoiseColumns]; // the same without the nearest
-
-int reachOfUse() {
-    if (launch.use == kMeansAsTheyAre) return kDenoiseChoiceReach;
-    return launch.use == kMeansPositive ? kDenoiseErrorReach : kDenoiseVarianceReach;
-}
+shared vec4 values[kRows * kColumns];         // 0 outside of the image
+shared vec4 rowSums[kRows * kDenoiseColumns]; // over the pixels in reach of each column
 
 void load(int at) {
     ivec2 pixel = pixelInReach(at, kMaxReach);
@@ -28,24 +22,18 @@ void load(int at) {
 
 void sumRow(int at, int reach) {
     int middle = at / kDenoiseColumns * kColumns + at % kDenoiseColumns + kMaxReach;
-    vec4 sum = vec4(0.0f), others = vec4(0.0f);
-    for (int x = -reach; x <= reach; x++) {
-        vec4 value = values[middle + x];
-        sum += value;
-        if (abs(x) > kDenoiseOwnReach) others += value;
-    }
+    vec4 sum = vec4(0.0f);
+    for (int x = -reach; x <= reach; x++) sum += values[middle + x];
     rowSums[at] = sum;
-    otherSums[at] = others;
 }
 
 void write(ivec2 pixel, int reach) {
-    vec4 sum = vec4(0.0f), others = vec4(0.0f);
-    for (int y = -reach; y <= reach; y++) {
-        int at = int(gl_LocalInvocationIndex) + (y + kMaxReach) * kDenoiseColumns;
-        sum += rowSums[at];
-        others += abs(y) > kDenoiseOwnReach ? rowSums[at] : otherSums[at];
-    }
+    vec4 sum = vec4(0.0f);
+    for (int y = -reach; y <= reach; y++)
+        sum += rowSums[int(gl_LocalInvocationIndex) + (y + kMaxReach) * kDenoiseColumns];
     vec4 mean = sum / float(pixelsInReach(pixel, reach));
+    if (launch.use == kMeansOfTones || launch.use == kMeansToGuides)
+        launch.kept.at[pixelCount() + pixelIndex(pixel)] = mean.x;
     if (launch.use == kMeansOfTones) {
         for (int half_ = 0; half_ < 2; half_++) launch.filtered.at[planeIndex(pixel, half_)].w = mean.x;
     } else if (launch.use == kMeansToGuides) {
@@ -53,21 +41,15 @@ void write(ivec2 pixel, int reach) {
     } else if (launch.use == kMeansToTones) {
         for (uint half_ = 0u; half_ < 2u; half_++)
             launch.guides.at[half_ * pixelCount() + pixelIndex(pixel)].w = mean.x;
-    } else if (launch.use == kMeansOfHistory) {
-        launch.means.at[pixelIndex(pixel)] = mean;
     } else if (launch.use == kMeansPositive) {
         launch.means.at[pixelIndex(pixel)] = max(mean, vec4(0.0f));
-    } else { // of the candidates' errors
-        int otherCount = pixelsInReach(pixel, reach) - pixelsInReach(pixel, kDenoiseOwnReach);
-        for (int i = 0; i < 4 && otherCount > 0; i++)
-            mean[i] = denoiseChoiceError(mean[i], others[i] / float(otherCount));
-        mean[kRawCandidate] *= kDenoiseRawCaution;
+    } else {
         launch.means.at[pixelIndex(pixel)] = mean;
     }
 }
 
 void main() {
-    int reach = reachOfUse();
+    int reach = launch.use == kMeansPositive ? kDenoiseErrorReach : kDenoiseVarianceReach;
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     int lane = int(gl_LocalInvocationIndex);
     for (int at = lane; at < kRows * kColumns; at += kDenoiseGroupSize) load(at);

@@ -74,5 +74,5 @@ void main() {
             sum = vec2(mix.gain, mix.change);
         }
     }
-    writeMix(sum, kDenoiseMixSums);
+    writeMix(sum, pixel, kMixOfFilter);
 }

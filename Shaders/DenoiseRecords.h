@@ -2,9 +2,11 @@
 // push constants of all passes. See docs/denoising.md.
 #ifndef RT_SHADERS_DENOISE_RECORDS_H
 #define RT_SHADERS_DENOISE_RECORDS_H
+#include "Common/Shared/Denoise/DenoiseChoice.h"
 #include "Common/Shared/Denoise/DenoiseFit.h"
 #include "Common/Shared/Denoise/DenoiseGuide.h"
 #include "Common/Shared/Denoise/DenoiseHistory.h"
+#include "Common/Shared/Denoise/DenoiseMix.h"
 #include "Common/Shared/Denoise/DenoiseWeights.h"
 #include "Records.h"
 
@@ -27,14 +29,17 @@ const int kDenoiseGroupSize = kDenoiseColumns * kDenoiseRows;
 // has to ask where it is. One more than these reach: so the pitch is a whole number of lines of memory.
 const int kDenoiseBorder = kDenoiseReach + kDenoisePatchReach + 1;
 const int kDenoiseTileReach = kDenoiseTile + 2 * kDenoiseReach; // pixels a side of what a tile's pixels are fitted by
-const uint kDenoiseSums = 12u;                                  // of a work group: see DenoiseBlend.comp;
-const uint kDenoiseMixSums = 8u;                                // from here on those of DenoiseMix.comp,
-const uint kDenoiseCoarseSums = 10u;                            // and those of DenoiseCoarse.comp
+const uint kDenoiseSums = 8u;                                   // of a work group: see DenoiseBlend.comp
+
+// Of work groups, by level of noise: sums of DenoiseMix.comp and of DenoiseCoarse.comp.
+const uint kMixOfFilter = 0u;
+const uint kMixOfResidual = 1u;
+const uint kDenoiseMixes = 2u;
+const uint kDenoiseMixSums = kDenoiseMixes * uint(kDenoiseNoiseLevels) * 2u; // of a work group: gain and change
 
 // What a pass that averages over squares does with the means.
-const uint kMeansAsTheyAre = 0u;
-const uint kMeansOfTones = 1u;   // the first component is the variance of a tone of either half,
-const uint kMeansToGuides = 5u;  // and of both guides, where tones are guides
+const uint kMeansOfTones = 0u;   // the first component is the variance of a tone of either half,
+const uint kMeansToGuides = 1u;  // and of both guides, where tones are guides
 const uint kMeansPositive = 2u;  // negative ones become 0
 const uint kMeansToTones = 3u;   // the same for the tones of LiveLaunch
 const uint kMeansOfHistory = 4u; // as they are, over the pixels that a variance is averaged over
@@ -45,7 +50,8 @@ struct DenoiseLaunch {
     MutableFloatArray surfaces;  // kSurfaceValues of each pixel
     PixelPlane radiance;         // bordered; the last component is 1 in the image
     PixelPlane guides;           // bordered: what pixels are compared by (DenoiseGuide.h), tones and their variance,
-                                 // summed over the channels
+                                 // summed over the channels. After the fit, in the first half's place, normals
+                                 // and depths, scaled
     PixelPlane features;         // of the surface, of what is in reach of each tile
     MutableWordArray axes;       // how many of these each tile has
     PixelPlane filtered;         // by each candidate: radiance; the two factors, packed. Before that, bordered: the
@@ -55,8 +61,8 @@ struct DenoiseLaunch {
                                  // Between the last two: the weight of each candidate
     PixelPlane means;            // of these
     MutableVectorArray pictures; // the result, and both halves of it
-    MutableFloatArray kept;      // the candidate of each pixel
-    MutableFloatArray sums;      // kDenoiseSums of each work group
+    MutableFloatArray kept;      // the candidate of each pixel; then the variance of a tone of a half, as averaged
+    MutableFloatArray sums;      // kDenoiseSums of each work group; then kDenoiseMixSums of each
     uint width;
     uint height;
     uint candidates;    // among which a pixel may choose

@@ -58,6 +58,9 @@ bug 'no stop at an edge' DenoiseWeights.h 's/0\.125f \* perSquaredBandwidth/0.0f
 bug 'an error without what is left of the noise' DenoiseWeights.h 's/a\.ownFactor \+ b\.ownFactor - 1\.0f/-1.0f/' unit.Denoiser
 bug 'features that know the noise of the picture' PathKernel.h 's/kFeatureReplicate, samples\.x\)/0u, samples.x)/' image.CpuEngine
 bug 'noise of one half that is given back' DenoiseMix.h 's/ - denoiseMixCorrection\(a, b\)//' unit.DenoiseMix
+bug 'errors of a filter by pixels of any surface' DenoiseFilter.cpp 's/likeness\[x\] = shared::denoiseLikeness\(likeness\[x\]\)/likeness[x] = 1.0f/' unit.Denoiser
+bug 'quiet pixels that get back what noisy ones do' DenoiseMix.h 's/kPerLogarithm = 0\.72134752f/kPerLogarithm = 0.0f/' unit.DenoiseMix
+bug 'likeness on the device without a part of the normal' DenoiseErrors.comp 's/launch\.surfaces\.at\[at\]/0.0f * &/' cross.DeviceDenoiserTest
 bug 'noise that is given back as error' DenoiseMix.h 's/residual \* residual - noise/residual * residual/' unit.DenoiseMix
 bug 'live weights from the half that is filtered' LiveDenoiser.cpp 's/levels_\[0\]\[1 - half\]\.radiance/levels_[0][half].radiance/' unit.LiveDenoiser
 bug 'weights of the device from the half that is filtered' DenoiseDistances.glsl 's/ivec2\(column, 0\), 1 - half_/ivec2(column, 0), half_/' cross.DeviceDenoiserTest

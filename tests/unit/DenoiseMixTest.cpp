@@ -1,4 +1,5 @@
 // How much of the filter a picture keeps, against the optimum of known errors and against both pictures.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -131,33 +132,41 @@ TEST(DenoiseMix, DetailsAreNotLost) {
     EXPECT_LT(withMix, 0.9 * withoutMix);
 }
 
-// Halves of `truth` with normal noise, and a filter that has made grey of them.
+// Halves of `truth` with normal noise of a standard deviation that depends on the column, and a filter that has made grey
+// of them.
 struct Blurred {
     image::Halves halves;
     image::Denoised filtered;
 };
-Blurred blurred(const image::Image& truth, float deviation) {
+template <class Deviation>
+Blurred blurred(const image::Image& truth, const Deviation& deviationAt) {
     std::mt19937 random(3);
-    std::normal_distribution<float> noise(0, deviation);
+    std::normal_distribution<float> noise;
     Blurred result;
+    result.halves.variance = image::Plane(truth.width, truth.height);
+    for (std::uint32_t y = 0; y < truth.height; ++y)
+        for (std::uint32_t x = 0; x < truth.width; ++x)
+            result.halves.variance.row(y)[x] = 3 * deviationAt(x) * deviationAt(x);
     for (image::Half& half : result.halves.half)
         for (std::size_t c = 0; c < 3; ++c) {
             half.radiance[c] = image::Plane(truth.width, truth.height);
             for (std::uint32_t y = 0; y < truth.height; ++y)
                 for (std::uint32_t x = 0; x < truth.width; ++x)
-                    half.radiance[c].row(y)[x] = truth.pixel(x, y)[c] + noise(random);
+                    half.radiance[c].row(y)[x] = truth.pixel(x, y)[c] + deviationAt(x) * noise(random);
         }
     for (image::Image* image : {&result.filtered.picture, &result.filtered.halfA, &result.filtered.halfB})
         *image = picture(truth.width, truth.height, kGrey);
     return result;
 }
 
+const auto kAlikeNoisy = [](std::uint32_t) { return 0.1f; };
+
 // Stripes of eight pixels, in noise of twice their height: single pixels do not show what the filter has lost, means
 // over 5x5 do. They lose a fifth of the stripes' square themselves, and their noise is another 8 % of it.
 TEST(DenoiseMix, GivesBackWhatIsBlurred) {
     const image::Image truth =
         picture(kMixSide, kMixSide, [](auto x, auto, auto) { return x / 8 % 2 == 0 ? 0.45f : 0.55f; });
-    Blurred given = blurred(truth, 0.1f);
+    Blurred given = blurred(truth, kAlikeNoisy);
     const double before = relMseFrom(given.filtered.picture, truth);
     image::giveBack(given.halves, given.filtered, 1);
     EXPECT_LT(relMseFrom(given.filtered.picture, truth), 0.3 * before);
@@ -169,10 +178,52 @@ TEST(DenoiseMix, GivesBackWhatIsBlurred) {
 // square is a part of the noise of a mean over 5x5. Cells have 41 independent means in each of three channels.
 TEST(DenoiseMix, NoiseIsNotGivenBack) {
     const image::Image truth = picture(kMixSide, kMixSide, kGrey);
-    Blurred given = blurred(truth, 0.1f);
+    Blurred given = blurred(truth, kAlikeNoisy);
     image::giveBack(given.halves, given.filtered, 1);
     const double coarseNoise = 0.1 * 0.1 / 2 / 25 / (0.5 * 0.5 + image::kRelativeFloor);
     EXPECT_LT(relMseFrom(given.filtered.picture, truth), 0.05 * coarseNoise);
+}
+
+// Of half of the columns, which are in cells with the others: squared errors, in the mean.
+double errorOf(const image::Image& image, const image::Image& truth, bool quiet) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::uint32_t y = 0; y < image.height; ++y)
+        for (std::uint32_t x = 0; x < image.width; ++x) {
+            if ((x / 16 % 2 == 0) != quiet || x % 16 < 2 || x % 16 > 13) continue; // no means of both
+            for (std::size_t c = 0; c < 3; ++c, ++count)
+                sum += std::pow(image.pixel(x, y)[c] - truth.pixel(x, y)[c], 2);
+        }
+    return sum / static_cast<double>(count);
+}
+
+// In each cell quiet stripes, which the filter has lost, and noise of grey, of which it has made what is true: the
+// stripes come back, as much as they do alone, and the noise does not.
+TEST(DenoiseMix, QuietPixelsAreNotAnsweredForByNoisyOnes) {
+    const image::Image truth = picture(kMixSide, kMixSide, [](auto x, auto y, auto) {
+        return x / 16 % 2 == 1 ? 0.5f : y / 8 % 2 == 0 ? 0.45f : 0.55f;
+    });
+    Blurred given = blurred(truth, [](std::uint32_t x) { return x / 16 % 2 == 0 ? 0.002f : 0.1f; });
+    const double before = errorOf(given.filtered.picture, truth, true);
+    image::giveBack(given.halves, given.filtered, 1);
+    EXPECT_LT(errorOf(given.filtered.picture, truth, true), 0.3 * before);
+    EXPECT_LT(errorOf(given.filtered.picture, truth, false), 0.1 * 0.1 * 0.1 / 2 / 25);
+}
+
+// From one level to the next noise is twice as much, and between two a pixel counts for both.
+TEST(DenoiseMix, LevelsAreOfTwiceTheNoise) {
+    const float lowest = shared::denoiseNoiseLevel(0);
+    EXPECT_EQ(lowest, 0);
+    float variance = 1e-6f;
+    for (int level = 0; level < shared::kDenoiseNoiseLevels; ++level, variance *= 4)
+        EXPECT_NEAR(shared::denoiseNoiseLevel(variance), level, 1e-4f);
+    EXPECT_EQ(shared::denoiseNoiseLevel(1e30f), shared::kDenoiseNoiseLevels - 1);
+    for (const float at : {0.0f, 0.25f, 3.5f, 6.9f, 7.0f}) {
+        float parts = 0;
+        for (int level = 0; level < shared::kDenoiseNoiseLevels; ++level)
+            parts += shared::denoisePartOfLevel(at, level);
+        EXPECT_NEAR(parts, 1, 1e-6f);
+    }
 }
 
 // Values of one half's bright sample and the other half's ordinary one, which finds no pixel like it and stays as it

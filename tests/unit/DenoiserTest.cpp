@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <random>
 #include <string>
 #include <utility>
 
@@ -10,6 +11,7 @@
 
 #include "Common/Image/Denoise/Denoiser.h"
 #include "Common/Image/Denoise/FilmHalves.h"
+#include "Common/Shared/Denoise/DenoiseChoice.h"
 #include "tests/unit/DenoiseInputs.h"
 
 namespace {
@@ -117,6 +119,32 @@ TEST(Denoiser, KnowsItsError) {
 TEST(Denoiser, KeepsTheEdgeOfALight) {
     constexpr std::uint32_t kEdge = 33;
     expectTheEdgeOfTheLamp(denoise(lampBeforeAWall(kSide, kEdge), 1).picture, kEdge);
+}
+
+// A texture that no feature knows, nearly free of noise, beside a noisy wall of another direction: up to the edge it
+// stays as it is, rather than to be filtered for the wall's sake. Where nothing tells the surfaces apart, it is.
+TEST(Denoiser, AQuietSurfaceStaysAsItIsBesideANoisyOne) {
+    constexpr std::uint32_t kWall = 40; // its first column
+    std::mt19937 random(7);
+    std::normal_distribution<float> detail(0, 0.03f), quiet(0, 0.0005f), loud(0, 0.06f);
+    const Image truth =
+        picture(kSide, kSide, [&](auto x, auto, auto) { return x < kWall ? 0.5f + detail(random) : 0.5f; });
+    DenoiseInput input;
+    for (Image* half : {&input.halfA, &input.halfB})
+        *half = picture(kSide, kSide, [&](auto x, auto y, auto c) {
+            return truth.pixel(x, y)[c] + (x < kWall ? quiet(random) : loud(random));
+        });
+    input.samplesOfHalf = rt::shared::kDenoiseRawSamples;
+    const auto errorAtTheEdge = [&](const Image& picture) {
+        double sum = 0;
+        for (std::uint32_t y = 0; y < kSide; ++y)
+            for (std::uint32_t x = kWall - 3; x < kWall - 1; ++x)
+                sum += std::pow(picture.pixel(x, y)[0] - truth.pixel(x, y)[0], 2);
+        return sum / (2 * kSide);
+    };
+    const double together = errorAtTheEdge(denoise(input, 1).picture);
+    input.normal = picture(kSide, kSide, [](auto x, auto, auto c) { return c == (x < kWall ? 0u : 1u) ? 1.0f : 0.0f; });
+    EXPECT_LT(errorAtTheEdge(denoise(input, 1).picture), 0.1 * together);
 }
 
 TEST(Denoiser, TakesWhateverAPictureMayHold) {

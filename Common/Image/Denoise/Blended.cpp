@@ -11,7 +11,7 @@ void addWeighed(const float* weights, const float* values, std::size_t width, fl
 
 } // namespace
 
-BlendedRow::BlendedRow(const Halves& halves, const Choice& weights, std::size_t y)
+BlendedRow::BlendedRow(const Halves& halves, const CandidateWeights& weights, std::size_t y)
     : halves_(halves), weights_(weights), y_(y), width_(halves.variance.width()) {
     for (std::size_t half = 0; half < 2; ++half) {
         Values& values = values_[half];

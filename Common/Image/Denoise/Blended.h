@@ -12,7 +12,7 @@ namespace rt::image {
 
 inline constexpr std::size_t kRawCandidate = shared::kDenoiseBandwidths; // leaves a pixel as it is
 
-using Choice = std::array<Plane, kDenoiseCandidates>; // the weight of each candidate in a pixel
+using CandidateWeights = std::array<Plane, kDenoiseCandidates>; // of each in a pixel; their sum is 1
 
 // A pixel of a half as it is.
 inline shared::DenoisedValue rawValue(float raw) {
@@ -30,7 +30,7 @@ struct Blended {
 // A row of pixels, of which one channel at a time is blended. Halves and weights must outlive it.
 class BlendedRow {
   public:
-    BlendedRow(const Halves& halves, const Choice& weights, std::size_t y);
+    BlendedRow(const Halves& halves, const CandidateWeights& weights, std::size_t y);
 
     void blend(std::size_t channel);
     Blended at(std::size_t x) const; // of that channel
@@ -49,7 +49,7 @@ class BlendedRow {
     float partnerNoise(std::size_t x) const;
 
     const Halves& halves_;
-    const Choice& weights_;
+    const CandidateWeights& weights_;
     std::size_t y_, width_, channel_ = 0;
     Values values_[2];
 };

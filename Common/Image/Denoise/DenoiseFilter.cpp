@@ -47,6 +47,52 @@ class Surfaces {
     float depthUnit_;
 };
 
+// The features of a row of pixels that say which are of one surface, one after the other: normal and depth.
+struct ShapeRow {
+    static constexpr std::size_t kFirst = 3, kCount = shared::kDenoiseSurfaceValues - kFirst;
+    std::array<std::vector<float>, kCount> values;
+
+    void load(const Surfaces& surfaces, std::size_t width, std::size_t y) {
+        for (std::vector<float>& value : values) value.resize(width);
+        for (std::size_t x = 0; x < width; ++x) {
+            const SurfaceFeatures features = surfaces.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+            for (std::size_t i = 0; i < kCount; ++i) values[i][x] = features[kFirst + i];
+        }
+    }
+};
+
+// Of `count` pixels from `first` on in one row, and as many from `second` on in another.
+void compareShapes(const ShapeRow& a, std::size_t first, const ShapeRow& b, std::size_t second, std::size_t count,
+                   float* __restrict likeness) {
+    std::fill_n(likeness, count, 0.0f);
+    for (std::size_t i = 0; i < ShapeRow::kCount; ++i) {
+        const float *here = a.values[i].data() + first, *there = b.values[i].data() + second;
+        for (std::size_t x = 0; x < count; ++x) likeness[x] += (here[x] - there[x]) * (here[x] - there[x]);
+    }
+    for (std::size_t x = 0; x < count; ++x) likeness[x] = shared::denoiseLikeness(likeness[x]);
+}
+
+void compareShapes(Halves& halves, const Surfaces& surfaces, std::size_t threads) {
+    const std::size_t width = halves.variance.width(), height = halves.variance.height();
+    constexpr std::size_t kReach = shared::kDenoiseChoiceReach;
+    for (Plane& plane : halves.likeAcross) plane = halves.variance.alike();
+    for (Plane& plane : halves.likeDown) plane = halves.variance.alike();
+    parallelChunks(threads, height, 16, [&](std::size_t first, std::size_t end) {
+        std::array<ShapeRow, kReach + 1> rows; // of the row at hand and those below, in a ring
+        for (std::size_t y = first; y < std::min(first + kReach, height); ++y)
+            rows[y % rows.size()].load(surfaces, width, y);
+        for (std::size_t y = first; y < end; ++y) {
+            if (y + kReach < height) rows[(y + kReach) % rows.size()].load(surfaces, width, y + kReach);
+            const ShapeRow& row = rows[y % rows.size()];
+            for (std::size_t step = 1; step <= kReach; ++step) {
+                if (step < width) compareShapes(row, 0, row, step, width - step, halves.likeAcross[step - 1].row(y));
+                if (y + step < height)
+                    compareShapes(row, 0, rows[(y + step) % rows.size()], 0, width, halves.likeDown[step - 1].row(y));
+            }
+        }
+    });
+}
+
 // ---- guides --------------------------------------------------------------------------------------------------------
 
 // A plane with a border of zeros, and its first pixel inside of that.
@@ -255,6 +301,7 @@ void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads
                           static_cast<int>(tile / columns) * kDenoiseTile);
         }
     });
+    compareShapes(halves, surfaces, threads);
     for (Half& half : halves.half) { // what is made next takes their memory
         half.guide = {};
         half.guideVariance = {};

@@ -6,6 +6,7 @@
 
 #include "Common/Image/Denoise/Denoiser.h"
 #include "Common/Image/Denoise/Planes.h"
+#include "Common/Shared/Denoise/DenoiseChoice.h"
 #include "Common/Shared/Denoise/DenoiseFit.h"
 #include "Common/Shared/Denoise/DenoiseGuide.h"
 #include "Common/Shared/Denoise/DenoiseMix.h"
@@ -26,6 +27,8 @@ struct Halves {
     std::array<Planes, 2> filtered[shared::kDenoiseBandwidths]; // by each candidate
     // DenoisedValue's factors of each candidate.
     std::array<Plane, 2> ownFactors[shared::kDenoiseBandwidths], partnerFactors[shared::kDenoiseBandwidths];
+    // denoiseLikeness() of each pixel and the one that is 1, 2, 3 to the right of it, or below.
+    std::array<Plane, shared::kDenoiseChoiceReach> likeAcross, likeDown;
     std::uint32_t dependentSide = 1;
     std::uint64_t samplesOfHalf = 0; // of a pixel
 
@@ -41,7 +44,7 @@ float usualDepth(const Image& depth);
 // The number of that one among `seen` depths in order.
 std::size_t usualRank(std::size_t seen);
 
-// Fills what is filtered, and the factors; guides are made for that, and given up.
+// Fills what is filtered, the factors, and which pixels are alike; guides are made for that, and given up.
 void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads);
 
 } // namespace rt::image

@@ -14,45 +14,86 @@ namespace {
 
 constexpr std::size_t kCellSide = shared::kDenoiseCell;
 
-// Sums over each cell of what mixRow(y, mixes) writes for the pixels of a row.
+// Sums over the pixels of each cell and level of noise.
 class MixCells {
   public:
+    // mixRow(y, mixes) writes those of the pixels of a row.
     template <class MixRow>
-    MixCells(std::size_t width, std::size_t height, std::size_t threads, const MixRow& mixRow)
-        : gain_((width + kCellSide - 1) / kCellSide, (height + kCellSide - 1) / kCellSide),
-          change_(gain_.width(), gain_.height()) {
-        parallelFor(threads, gain_.height(), [&](std::size_t row) {
+    MixCells(const Plane& variance, std::size_t threads, const MixRow& mixRow)
+        : variance_(variance),
+          columns_((variance.width() + kCellSide - 1) / kCellSide),
+          rows_((variance.height() + kCellSide - 1) / kCellSide),
+          sums_(columns_ * rows_) {
+        const std::size_t width = variance.width(), height = variance.height();
+        parallelFor(threads, rows_, [&](std::size_t row) {
             std::vector<shared::DenoiseMix> mixes(width);
             for (std::size_t y = row * kCellSide; y < std::min(height, (row + 1) * kCellSide); ++y) {
                 std::fill(mixes.begin(), mixes.end(), shared::DenoiseMix{0, 0});
                 mixRow(y, mixes);
-                for (std::size_t x = 0; x < width; ++x) {
-                    gain_.row(row)[x / kCellSide] += mixes[x].gain;
-                    change_.row(row)[x / kCellSide] += mixes[x].change;
-                }
+                for (std::size_t x = 0; x < width; ++x)
+                    add(mixes[x], noiseLevel(x, y), sums_[row * columns_ + x / kCellSide]);
             }
         });
     }
 
-    float share(std::size_t x, std::size_t y) const {
-        const shared::DenoiseCellPlace column = shared::denoiseCellPlace(static_cast<int>(x)),
-                                       row = shared::denoiseCellPlace(static_cast<int>(y));
-        return shared::denoiseMixShare({interpolated(gain_, column, row), interpolated(change_, column, row)});
+    // Of the pixels of a row.
+    std::vector<float> shares(std::size_t y) const {
+        const shared::DenoiseCellPlace row = shared::denoiseCellPlace(static_cast<int>(y));
+        std::vector<Sums> cells(columns_); // between the two rows of cells that the pixels lie between
+        for (std::size_t x = 0; x < columns_; ++x)
+            for (std::size_t level = 0; level < Sums().size(); ++level)
+                cells[x][level] = lerp(cell(x, row.first)[level], cell(x, row.first + 1)[level], row.fraction);
+        std::vector<float> shares(variance_.width());
+        for (std::size_t x = 0; x < shares.size(); ++x) {
+            const shared::DenoiseCellPlace column = shared::denoiseCellPlace(static_cast<int>(x));
+            const float level = noiseLevel(x, y);
+            shares[x] =
+                shared::denoiseMixShare(lerp(part(cells[clamped(column.first, columns_)], level),
+                                             part(cells[clamped(column.first + 1, columns_)], level), column.fraction));
+        }
+        return shares;
     }
 
   private:
-    static float interpolated(const Plane& cells, const shared::DenoiseCellPlace& x,
-                              const shared::DenoiseCellPlace& y) {
-        const auto at = [&cells](int column, int row) {
-            column = std::clamp(column, 0, static_cast<int>(cells.width()) - 1);
-            return cells.row(
-                static_cast<std::size_t>(std::clamp(row, 0, static_cast<int>(cells.height()) - 1)))[column];
-        };
-        const auto inRow = [&](int row) { return std::lerp(at(x.first, row), at(x.first + 1, row), x.fraction); };
-        return std::lerp(inRow(y.first), inRow(y.first + 1), y.fraction);
+    using Sums = std::array<shared::DenoiseMix, shared::kDenoiseNoiseLevels>;
+
+    float noiseLevel(std::size_t x, std::size_t y) const { return shared::denoiseNoiseLevel(variance_.row(y)[x]); }
+
+    static void add(const shared::DenoiseMix& mix, float noiseLevel, Sums& sums) {
+        for (const std::size_t level : levelsAt(noiseLevel)) {
+            const float share = shared::denoisePartOfLevel(noiseLevel, static_cast<int>(level));
+            sums[level].gain += share * mix.gain;
+            sums[level].change += share * mix.change;
+        }
+    }
+    static shared::DenoiseMix part(const Sums& sums, float noiseLevel) {
+        shared::DenoiseMix result{0, 0};
+        for (const std::size_t level : levelsAt(noiseLevel)) {
+            const float share = shared::denoisePartOfLevel(noiseLevel, static_cast<int>(level));
+            result.gain += share * sums[level].gain;
+            result.change += share * sums[level].change;
+        }
+        return result;
+    }
+    // Those that a pixel lies between.
+    static std::array<std::size_t, 2> levelsAt(float noiseLevel) {
+        const std::size_t lower = std::min(static_cast<std::size_t>(noiseLevel), Sums().size() - 2);
+        return {lower, lower + 1};
     }
 
-    Plane gain_, change_;
+    static shared::DenoiseMix lerp(const shared::DenoiseMix& a, const shared::DenoiseMix& b, float t) {
+        return {std::lerp(a.gain, b.gain, t), std::lerp(a.change, b.change, t)};
+    }
+
+    // One outside of the image is that at its edge.
+    static std::size_t clamped(int cell, std::size_t count) {
+        return static_cast<std::size_t>(std::clamp(cell, 0, static_cast<int>(count) - 1));
+    }
+    const Sums& cell(std::size_t column, int row) const { return sums_[clamped(row, rows_) * columns_ + column]; }
+
+    const Plane& variance_;
+    std::size_t columns_, rows_;
+    std::vector<Sums> sums_;
 };
 
 void add(shared::DenoiseMix& sum, const shared::DenoiseMix& mix) {
@@ -91,9 +132,9 @@ CoarseResiduals::CoarseResiduals(const Halves& halves, const Denoised& filtered,
 
 } // namespace
 
-void mixWithRaw(const Halves& halves, Choice& weights, std::size_t threads) {
+void mixWithRaw(const Halves& halves, CandidateWeights& weights, std::size_t threads) {
     const std::size_t width = halves.variance.width(), height = halves.variance.height();
-    const MixCells cells(width, height, threads, [&](std::size_t y, std::vector<shared::DenoiseMix>& mixes) {
+    const MixCells cells(halves.variance, threads, [&](std::size_t y, std::vector<shared::DenoiseMix>& mixes) {
         BlendedRow row(halves, weights, y);
         for (std::size_t c = 0; c < 3; ++c) {
             row.blend(c);
@@ -104,10 +145,10 @@ void mixWithRaw(const Halves& halves, Choice& weights, std::size_t threads) {
         }
     });
     parallelFor(threads, height, [&](std::size_t y) {
+        const std::vector<float> shares = cells.shares(y);
         for (std::size_t x = 0; x < width; ++x) {
-            const float share = cells.share(x, y);
-            for (Plane& weight : weights) weight.row(y)[x] *= share;
-            weights[kRawCandidate].row(y)[x] += 1 - share;
+            for (Plane& weight : weights) weight.row(y)[x] *= shares[x];
+            weights[kRawCandidate].row(y)[x] += 1 - shares[x];
         }
     });
 }
@@ -117,7 +158,7 @@ void giveBack(const Halves& halves, Denoised& result, std::size_t threads) {
     std::array<CoarseResiduals, 3> residuals{CoarseResiduals(halves, result, 0, threads),
                                              CoarseResiduals(halves, result, 1, threads),
                                              CoarseResiduals(halves, result, 2, threads)};
-    const MixCells cells(width, height, threads, [&](std::size_t y, std::vector<shared::DenoiseMix>& mixes) {
+    const MixCells cells(halves.variance, threads, [&](std::size_t y, std::vector<shared::DenoiseMix>& mixes) {
         const float* picture = &result.picture.data[y * width * 3];
         for (std::size_t c = 0; c < 3; ++c) {
             const float *a = residuals[c].a().row(y), *b = residuals[c].b().row(y),
@@ -128,12 +169,12 @@ void giveBack(const Halves& halves, Denoised& result, std::size_t threads) {
     });
     parallelFor(threads, height, [&](std::size_t row) {
         const auto y = static_cast<std::uint32_t>(row);
+        const std::vector<float> shares = cells.shares(y);
         for (std::uint32_t x = 0; x < width; ++x) {
-            const float share = cells.share(x, y);
             for (std::size_t c = 0; c < 3; ++c) {
                 float &a = result.halfA.pixel(x, y)[c], &b = result.halfB.pixel(x, y)[c];
-                a = shared::denoiseGivenBack(a, share * residuals[c].a().row(y)[x]);
-                b = shared::denoiseGivenBack(b, share * residuals[c].b().row(y)[x]);
+                a = shared::denoiseGivenBack(a, shares[x] * residuals[c].a().row(y)[x]);
+                b = shared::denoiseGivenBack(b, shares[x] * residuals[c].b().row(y)[x]);
                 result.picture.pixel(x, y)[c] = 0.5f * (a + b);
             }
         }

@@ -9,7 +9,7 @@
 namespace rt::image {
 
 // Gives a part of each pixel back to what it was.
-void mixWithRaw(const Halves& halves, Choice& weights, std::size_t threads);
+void mixWithRaw(const Halves& halves, CandidateWeights& weights, std::size_t threads);
 
 // Gives back a part of what the filter took away from the pixels around each, in the mean.
 void giveBack(const Halves& halves, Denoised& result, std::size_t threads);

@@ -1,8 +1,10 @@
 #include "Common/Image/Denoise/Planes.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <mutex>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include "Common/Core/Parallel.h"
@@ -81,6 +83,14 @@ void addShifted(const float* values, std::ptrdiff_t shift, std::size_t width, fl
 }
 
 namespace {
+
+// The pixels of an image of this size, from first to last, that are at most `reach` from one in one direction.
+struct InReach {
+    std::size_t first, last;
+    InReach(std::size_t at, std::size_t reach, std::size_t size)
+        : first(at < reach ? 0 : at - reach), last(std::min(at + reach, size - 1)) {}
+    std::size_t count() const { return last - first + 1; }
+};
 
 void boxMean(const Plane& plane, int reach, std::size_t y, std::vector<float>& columns, float* means) {
     const std::size_t width = plane.width(), distance = static_cast<std::size_t>(reach);

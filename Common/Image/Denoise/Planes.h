@@ -1,11 +1,9 @@
 // One channel of an image, and means over squares of pixels.
 #pragma once
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <utility>
 
 namespace rt::image {
 
@@ -35,15 +33,6 @@ class Plane {
 };
 
 using Planes = std::array<Plane, 3>;
-
-// The pixels of an image of this size, from first to last, that are at most `reach` from one in one direction.
-struct InReach {
-    std::size_t first, last;
-    InReach(std::size_t at, std::size_t reach, std::size_t size)
-        : first(at < reach ? 0 : at - reach), last(std::min(at + reach, size - 1)) {}
-    std::size_t count() const { return last - first + 1; }
-    bool contains(std::size_t at) const { return at >= first && at <= last; }
-};
 
 // Adds values[x + shift] to sums[x], for all x of a row where both are in it.
 void addShifted(const float* values, std::ptrdiff_t shift, std::size_t width, float* __restrict sums);

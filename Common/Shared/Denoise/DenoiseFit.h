@@ -17,14 +17,6 @@ const float kDenoisePixel = 0.1f; // from one pixel to the next: coordinates are
 const float kDenoiseRidge = 1.0e-3f; // of the sum of weights: a feature that varies by much less has no say
 const float kDenoiseTiny = 1.0e-6f;  // keeps the system regular where nothing varies
 
-const uint kDenoiseRawSamples = 4u;    // of each half, from which on a pixel may stay as it is,
-const float kDenoiseRawCaution = 4.0f; // where its error is so many times less: halves that have missed the same look
-                                       // free of noise
-// Over so many pixels around it the choices of filters are averaged, and that of a pixel as it is, which is made where
-// there are details.
-const int kDenoiseBlendReach = 2;
-const int kDenoiseRawBlendReach = 1;
-
 // A value of the surface, finite and at most 2, before it is scaled.
 RT_FN float denoiseBounded(float value, float minimum) {
     return isFinite(value) ? clamp(value, minimum, 2.0f) : 0.0f;
@@ -39,11 +31,6 @@ RT_FN float denoiseNormal(float component) {
 // `usual`: what nearly all pixels that see something are nearer than.
 RT_FN float denoiseDepth(float depth, float usual) {
     return 4.0f * denoiseBounded(depth / usual, 0.0f);
-}
-
-// By what the filters' shares of choices change where the share of the pixel as it is was `raw` and becomes `newRaw`.
-RT_FN float denoiseFilterScale(float raw, float newRaw) {
-    return raw < 1.0f ? (1.0f - newRaw) / (1.0f - raw) : 0.0f;
 }
 
 // From a pixel to the one beside it in its square of 2x2, along an axis where `step` is not 0: the other way for an odd

@@ -4,7 +4,9 @@
 // A picture w filtered + (1 - w) raw is least off for w = (errorOfRaw - errorOfFiltered + change^2) / (2 change^2),
 // where errors are expected squared ones and change is filtered - raw, as the expectation of change^2 is the sum of
 // both errors less twice what they have in common (Bates and Granger 1969, "The Combination of Forecasts"). Both
-// terms are summed over the pixels of a cell, in units of relMSE, since those of a pixel are mostly noise.
+// terms are summed over the pixels of a cell, in units of relMSE, since those of a pixel are mostly noise. In a cell each
+// level of noise has sums of its own: where a quiet surface meets an edge or a lamp, the raw picture may be right for
+// one and wrong for the other.
 #ifndef RT_SHARED_DENOISE_MIX_H
 #define RT_SHARED_DENOISE_MIX_H
 #include "Common/Shared/Denoise/DenoiseWeights.h"
@@ -15,7 +17,8 @@ const int kDenoiseCell = 32;                  // pixels a side
 RT_CONST float kDenoiseRelativeFloor = 0.01f; // of relMSE's denominator
 // Of each half, from which on a picture is mixed: with fewer, a cell's sums are mostly noise, which costs more than the
 // details are worth.
-const uint kDenoiseMixSamples = 32u;
+const uint kDenoiseMixSamples = 16u;
+const int kDenoiseNoiseLevels = 8; // from one to the next noise is twice as much
 
 // What is left to mix then is coarser than a pixel. Where a filter blurs an edge or a highlight, it takes away about
 // the same from all pixels around, while their noise differs: the mean over some pixels of raw - filtered has most of
@@ -71,6 +74,19 @@ RT_FN DenoiseMix denoiseCoarseMix(float residualA, float residualB, float halfDi
 
 RT_FN float denoiseGivenBack(float filtered, float residual) {
     return max(filtered + residual, 0.0f);
+}
+
+// Among kDenoiseNoiseLevels, by the variance of a tone of a half, summed over the channels and averaged over pixels
+// around; between two of them for most.
+RT_FN float denoiseNoiseLevel(float variance) {
+    const float kLowest = 1.0e-6f;
+    const float kPerLogarithm = 0.72134752f; // of 4
+    return clamp(kPerLogarithm * logarithm(max(variance, kLowest) / kLowest), 0.0f, float(kDenoiseNoiseLevels - 1));
+}
+
+// The part of a pixel that counts for a level.
+RT_FN float denoisePartOfLevel(float noiseLevel, int level) {
+    return max(1.0f - abs(noiseLevel - float(level)), 0.0f);
 }
 
 // w, or v. Where the filter has changed nothing, all is kept.

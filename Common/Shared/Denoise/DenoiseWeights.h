@@ -12,9 +12,7 @@ RT_SHARED_BEGIN
 const int kDenoiseReach = 8;         // pixels from the one that is filtered, in either direction
 const int kDenoisePatchReach = 3;    // of the larger patch, 7x7
 const int kDenoiseVarianceReach = 3; // over so many pixels around it a pixel's variance is averaged
-const int kDenoiseErrorReach = 2;    // the same for the error that is left,
-const int kDenoiseChoiceReach = 3;   // and for the error by which a bandwidth is chosen,
-const int kDenoiseOwnReach = 2;      // once with the pixels so near and once without: see denoiseChoiceError()
+const int kDenoiseErrorReach = 2;    // the same for the error that is left
 const float kDenoiseMaxRadiance = 1.0e15f;
 
 // One of the filters among which each pixel chooses.
@@ -82,13 +80,6 @@ RT_FN float denoiseError(DenoisedValue a, DenoisedValue b, float partnerNoise) {
     float noise = a.raw - b.raw;
     float through = (a.ownFactor + b.ownFactor - 1.0f) * noise + (a.partnerFactor + b.partnerFactor) * partnerNoise;
     return 0.5f * (changeA * changeA + changeB * changeB + through * noise);
-}
-
-// The error of a candidate by which a pixel chooses, by the mean of all around it and of those but the nearest. The
-// least of several errors that chance has a part in is below what it stands for, the more so the more of it is the
-// pixel's own; but a bright sample that a candidate keeps is seen in the pixel alone.
-RT_FN float denoiseChoiceError(float meanOfAll, float meanOfOthers) {
-    return max(meanOfAll, meanOfOthers);
 }
 
 RT_SHARED_END
