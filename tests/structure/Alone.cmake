@@ -105,7 +105,7 @@ foreach(target IN LISTS targets)
         set_tests_properties(structure.alone.${target} PROPERTIES FIXTURES_REQUIRED "aloneLibraries;aloneHeaders"
                              LABELS "structure;nightly")
         math(EXPR milliseconds "10000 + ${count} * 500")
-        rt_tidy_test(tidy ${target} ${alone}/${target}.$<CONFIG>.cmake -${atNight} ${milliseconds})
+        rt_tidy_test(tidy ${target} ${alone}/${target}.$<CONFIG>.cmake ${butAtNight} ${milliseconds})
         rt_tidy_test(tidyAtNight ${target} ${alone}/${target}.$<CONFIG>.cmake -*,${atNight} ${milliseconds})
         set_tests_properties(structure.tidyAtNight.${target} PROPERTIES LABELS "structure;nightly")
         # Tests at night: theirs are half of all sources, and what is slow in them slows nobody down.
