@@ -132,8 +132,8 @@ TEST(DenoiseMix, DetailsAreNotLost) {
     EXPECT_LT(withMix, 0.9 * withoutMix);
 }
 
-// Halves of `truth` with normal noise of a standard deviation that depends on the column, and a filter that has made grey
-// of them.
+// Halves of `truth` with normal noise of a standard deviation that depends on the column, and a filter that has made
+// grey of them.
 struct Blurred {
     image::Halves halves;
     image::Denoised filtered;

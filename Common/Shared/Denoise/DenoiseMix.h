@@ -4,9 +4,9 @@
 // A picture w filtered + (1 - w) raw is least off for w = (errorOfRaw - errorOfFiltered + change^2) / (2 change^2),
 // where errors are expected squared ones and change is filtered - raw, as the expectation of change^2 is the sum of
 // both errors less twice what they have in common (Bates and Granger 1969, "The Combination of Forecasts"). Both
-// terms are summed over the pixels of a cell, in units of relMSE, since those of a pixel are mostly noise. In a cell each
-// level of noise has sums of its own: where a quiet surface meets an edge or a lamp, the raw picture may be right for
-// one and wrong for the other.
+// terms are summed over the pixels of a cell, in units of relMSE, since those of a pixel are mostly noise. In a cell
+// each level of noise has sums of its own: where a quiet surface meets an edge or a lamp, the raw picture may be right
+// for one and wrong for the other.
 #ifndef RT_SHARED_DENOISE_MIX_H
 #define RT_SHARED_DENOISE_MIX_H
 #include "Common/Shared/Denoise/DenoiseWeights.h"
@@ -80,7 +80,7 @@ RT_FN float denoiseGivenBack(float filtered, float residual) {
 // around; between two of them for most.
 RT_FN float denoiseNoiseLevel(float variance) {
     const float kLowest = 1.0e-6f;
-    const float kPerLogarithm = 0.72134752f; // of 4
+    const float kPerLogarithm = 0.72134752f; // 1 / log(4)
     return clamp(kPerLogarithm * logarithm(max(variance, kLowest) / kLowest), 0.0f, float(kDenoiseNoiseLevels - 1));
 }
 
