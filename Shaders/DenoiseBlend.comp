@@ -54,7 +54,7 @@ void main() {
         sharedShares[lane] += sharedShares[lane + other];
     }
     if (lane != 0u) return;
-    uint at = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * kDenoiseSums;
+    uint at = numberOf(gl_WorkGroupID.xy) * kDenoiseSums;
     for (int i = 0; i < 4; i++) {
         launch.sums.at[at + i] = sharedErrors[0][i];
         launch.sums.at[at + 4 + i] = sharedShares[0][i];

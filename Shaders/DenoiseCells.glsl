@@ -14,11 +14,15 @@ float noiseLevelAt(ivec2 pixel) {
     return denoiseNoiseLevel(launch.kept.at[pixelCount() + pixelIndex(pixel)]);
 }
 
+// Of work groups, row by row.
+uint numberOf(uvec2 group) {
+    return group.y * gl_NumWorkGroups.x + group.x;
+}
+
 // In the sums. `which`: kMixOfFilter or kMixOfResidual.
-uint firstMixSumOf(ivec2 group, uint which) {
-    uint before = uint(group.y) * gl_NumWorkGroups.x + uint(group.x);
+uint firstMixSumOf(uvec2 group, uint which) {
     return gl_NumWorkGroups.x * gl_NumWorkGroups.y * kDenoiseSums +
-           (before * kDenoiseMixes + which) * uint(kDenoiseNoiseLevels) * 2u;
+           (numberOf(group) * kDenoiseMixes + which) * uint(kDenoiseNoiseLevels) * 2u;
 }
 
 // The work group's part of its cell's sums. All invocations call it, with 0 for what is outside of the image.
@@ -37,7 +41,7 @@ void writeMix(vec2 mix, ivec2 pixel, uint which) {
         if (part < other) levelSums[lane] += levelSums[lane + other];
     }
     if (part != 0) return;
-    uint at = firstMixSumOf(ivec2(gl_WorkGroupID.xy), which) + uint(level) * 2u;
+    uint at = firstMixSumOf(gl_WorkGroupID.xy, which) + uint(level) * 2u;
     launch.sums.at[at] = levelSums[lane].x;
     launch.sums.at[at + 1u] = levelSums[lane].y;
 }
@@ -54,7 +58,7 @@ vec2 sumsOfCell(ivec2 cell, int level, uint which) {
     vec2 sum = vec2(0.0f);
     for (int y = first.y; y < min(first.y + kGroupRowsOfCell, groups.y); y++)
         for (int x = first.x; x < min(first.x + kGroupColumnsOfCell, groups.x); x++) {
-            uint at = firstMixSumOf(ivec2(x, y), which) + uint(level) * 2u;
+            uint at = firstMixSumOf(uvec2(x, y), which) + uint(level) * 2u;
             sum += vec2(launch.sums.at[at], launch.sums.at[at + 1u]);
         }
     return sum;

@@ -60,32 +60,38 @@ class MixCells {
     float noiseLevel(std::size_t x, std::size_t y) const { return shared::denoiseNoiseLevel(variance_.row(y)[x]); }
 
     static void add(const shared::DenoiseMix& mix, float noiseLevel, Sums& sums) {
-        for (const std::size_t level : levelsAt(noiseLevel)) {
-            const float share = shared::denoisePartOfLevel(noiseLevel, static_cast<int>(level));
+        for (const auto& [level, share] : partsOf(noiseLevel)) {
             sums[level].gain += share * mix.gain;
             sums[level].change += share * mix.change;
         }
     }
     static shared::DenoiseMix part(const Sums& sums, float noiseLevel) {
         shared::DenoiseMix result{0, 0};
-        for (const std::size_t level : levelsAt(noiseLevel)) {
-            const float share = shared::denoisePartOfLevel(noiseLevel, static_cast<int>(level));
+        for (const auto& [level, share] : partsOf(noiseLevel)) {
             result.gain += share * sums[level].gain;
             result.change += share * sums[level].change;
         }
         return result;
     }
-    // Those that a pixel lies between.
-    static std::array<std::size_t, 2> levelsAt(float noiseLevel) {
-        const std::size_t lower = std::min(static_cast<std::size_t>(noiseLevel), Sums().size() - 2);
-        return {lower, lower + 1};
+
+    // How far a pixel counts for each of the two levels of noise that its own lies between.
+    struct LevelPart {
+        std::size_t level;
+        float share;
+    };
+    static std::array<LevelPart, 2> partsOf(float noiseLevel) {
+        const int lower = std::min(static_cast<int>(noiseLevel), shared::kDenoiseNoiseLevels - 2);
+        const auto of = [&](int level) {
+            return LevelPart{static_cast<std::size_t>(level), shared::denoisePartOfLevel(noiseLevel, level)};
+        };
+        return {of(lower), of(lower + 1)};
     }
 
     static shared::DenoiseMix lerp(const shared::DenoiseMix& a, const shared::DenoiseMix& b, float t) {
         return {std::lerp(a.gain, b.gain, t), std::lerp(a.change, b.change, t)};
     }
 
-    // One outside of the image is that at its edge.
+    // The number of a column or row of cells; of one outside of the image, that at its edge.
     static std::size_t clamped(int cell, std::size_t count) {
         return static_cast<std::size_t>(std::clamp(cell, 0, static_cast<int>(count) - 1));
     }
