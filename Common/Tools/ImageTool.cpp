@@ -119,7 +119,7 @@ int denoise(const Arguments& arguments) {
     return static_cast<int>(ExitCode::Done);
 }
 
-int run(const std::vector<std::string>& line) {
+int runCommand(const std::vector<std::string>& line) {
     const std::optional<Arguments> arguments = tools::parseImageArguments(line, std::cout);
     if (!arguments) return static_cast<int>(ExitCode::Done); // --help, --version
     setUpLog({tools::kImageTool, false, false, ""});         // of what is left out of images
@@ -141,5 +141,5 @@ int run(const std::vector<std::string>& line) {
 
 int main(int argc, char** argv) {
     const std::vector<std::string> line(argv + std::min(argc, 1), argv + argc);
-    return rt::runMain(rt::tools::kImageTool, [&] { return run(line); });
+    return rt::runMain(rt::tools::kImageTool, [&] { return runCommand(line); });
 }

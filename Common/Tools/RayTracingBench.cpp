@@ -243,7 +243,7 @@ int measureLive(const bench::BenchOptions& options) {
     return static_cast<int>(ExitCode::Done);
 }
 
-int run(const std::vector<std::string>& arguments) {
+int runBench(const std::vector<std::string>& arguments) {
     const auto options = bench::parseBenchOptions(arguments, std::cout);
     if (!options) return 0; // --help, --version
     setUpLog({kProgram, options->quiet, false, ""});
@@ -258,5 +258,5 @@ int run(const std::vector<std::string>& arguments) {
 } // namespace
 
 int main(int argc, char** argv) {
-    return rt::runMain(kProgram, [&] { return run({argv + std::min(argc, 1), argv + argc}); });
+    return rt::runMain(kProgram, [&] { return runBench({argv + std::min(argc, 1), argv + argc}); });
 }

@@ -144,7 +144,7 @@ class NightlyComparisonTest : public ComparisonTest {};
 INSTANTIATE_TEST_SUITE_P(, NightlyComparisonTest, kBothPrograms, nameOfProgram);
 
 // Two runs of equal work and one of another.
-TEST_P(ComparisonTest, RunsAreShownMarkedSelectedHiddenAndDeleted) {
+TEST_P(SharedComparisonTest, RunsAreShownMarkedSelectedHiddenAndDeleted) {
     const std::string cpu = "ray-tracing-cpu", gpu = "ray-tracing-gpu";
     keep({run(cpu, "bsdf", "2026-01-01T00:00:01Z"), run(cpu, "mis", "2026-01-01T00:00:02Z"),
           run(gpu, "mis", "2026-01-01T00:00:03Z")});

@@ -12,6 +12,10 @@ namespace {
 class WindowStateTest : public WindowTest {};
 INSTANTIATE_TEST_SUITE_P(, WindowStateTest, kBothPrograms, nameOfProgram);
 
+class SharedWindowStateTest : public WindowTest {};
+INSTANTIATE_TEST_SUITE_P(, SharedWindowStateTest, kFirstProgram, nameOfProgram);
+INSTANTIATE_TEST_SUITE_P(Nightly, SharedWindowStateTest, kSecondProgram, nameOfProgram);
+
 TEST_P(WindowStateTest, SurvivesEverySize) {
     start({"--no-config"});
     ASSERT_FALSE(HasFatalFailure());
@@ -31,7 +35,7 @@ TEST_P(WindowStateTest, SurvivesEverySize) {
 }
 
 // All is twice as large: the first header is where the second one would be otherwise.
-TEST_P(WindowStateTest, SizesFollowTheMonitor) {
+TEST_P(SharedWindowStateTest, SizesFollowTheMonitor) {
     constexpr int kFirstHeader = 2 * 131;
     setDotsPerInch(192);
     start();
@@ -64,7 +68,7 @@ TEST_P(WindowStateTest, MinimisedItRendersOnAndComesBack) {
     expectCleanEnd();
 }
 
-TEST_P(WindowStateTest, FilesAreWrittenWhenTheRenderEnds) {
+TEST_P(SharedWindowStateTest, FilesAreWrittenWhenTheRenderEnds) {
     const std::filesystem::path image = folder_ / "a.png", stats = folder_ / "a.json";
     start({"--window", "-o", image.string(), "--aov", "depth", "--stats", stats.string()});
     ASSERT_FALSE(HasFatalFailure());
@@ -103,7 +107,7 @@ TEST_P(WindowStateTest, ASignalWhileItOpensEndsIt) {
 }
 
 // There is nothing to fall back to that the user has asked for.
-TEST_P(WindowStateTest, ASceneThatThereIsNoneOfIsToldOnce) {
+TEST_P(SharedWindowStateTest, ASceneThatThereIsNoneOfIsToldOnce) {
     launch(GetParam(), {"--scene", "cornel"});
     EXPECT_EQ(waitForEnd(), 3);
     const std::string text = log(), wanted = "no such scene";
@@ -112,7 +116,7 @@ TEST_P(WindowStateTest, ASceneThatThereIsNoneOfIsToldOnce) {
     EXPECT_EQ(text.find(wanted, first + 1), std::string::npos) << text;
 }
 
-TEST_P(WindowStateTest, ASceneThatIsGoneSinceTheLastTimeIsNoReasonNotToOpen) {
+TEST_P(SharedWindowStateTest, ASceneThatIsGoneSinceTheLastTimeIsNoReasonNotToOpen) {
     const std::filesystem::path scene = writeScene("gone.json", "Gone soon");
     start({"--scene", scene.string()});
     ASSERT_FALSE(HasFatalFailure());

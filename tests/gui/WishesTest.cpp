@@ -152,7 +152,7 @@ TEST_P(SharedWishesTest, TheSceneIsExportedFromThePanelAndNamed) {
     EXPECT_TRUE(eventually(
         [&] {
             if (!fs::exists(file)) {
-                clickText(label, kPanels, [&] { return placesOf(label).size() > 1; });
+                clickText(label, kPanels, [&] { return isShown("Cancel"); });
                 key("Return");
                 pause(1000);
             }

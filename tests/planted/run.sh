@@ -51,9 +51,9 @@ build_for() {
 # build_suite TEST: formulas are compiled with their unit tests, so these sources suffice, and whatever else includes
 # the header stays as it is.
 build_suite() {
-    local suite=${1##*[./]} units=build/tests/CMakeFiles/rt-unit-tests.dir/Unity commands source unit compile
+    local suite=${1##*[./]} units=build/tests/CMakeFiles/rt-unit-*.dir/Unity commands source unit compile
     commands=$(ninja -C build -t commands rt-unit-tests)
-    for source in $(grep -lE "TEST(_F|_P)?\($suite," tests/unit/*.cpp); do
+    for source in $(grep -rlE --include=*.cpp "TEST(_F|_P)?\($suite," tests/unit); do
         # Or what includes it, where several sources are compiled as one.
         unit=$(grep -lF "\"$PWD/$source\"" $units/*.cxx 2>/dev/null) || unit=$source
         compile=$(grep -F -- "-c $PWD/$unit" <<<"$commands") || return 1
