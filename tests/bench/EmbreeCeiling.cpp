@@ -41,7 +41,7 @@ using shared::Ray;
 using shared::vec2;
 using shared::vec3;
 
-constexpr std::uint32_t kSide = 384; // pixels of the image whose paths give the rays
+constexpr std::uint32_t kImageSide = 384; // pixels of the image whose paths give the rays
 constexpr int kBounces = 3;
 constexpr std::size_t kChunk = 4096; // rays that a thread takes at a time
 
@@ -52,8 +52,8 @@ struct Release {
         release(object);
     }
 };
-using Device = std::unique_ptr<RTCDeviceTy, Release<rtcReleaseDevice>>;
-using Scene = std::unique_ptr<RTCSceneTy, Release<rtcReleaseScene>>;
+using EmbreeDevice = std::unique_ptr<RTCDeviceTy, Release<rtcReleaseDevice>>;
+using EmbreeScene = std::unique_ptr<RTCSceneTy, Release<rtcReleaseScene>>;
 
 template <class T>
 void attach(RTCDevice device, RTCScene scene, RTCGeometryType type, RTCFormat vertexFormat,
@@ -73,8 +73,8 @@ void attach(RTCDevice device, RTCScene scene, RTCGeometryType type, RTCFormat ve
     rtcReleaseGeometry(geometry);
 }
 
-Scene makeScene(RTCDevice device, const scene::CompiledScene& s) {
-    Scene scene(rtcNewScene(device));
+EmbreeScene makeScene(RTCDevice device, const scene::CompiledScene& s) {
+    EmbreeScene scene(rtcNewScene(device));
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
     std::vector<shared::vec4> spheres;
     for (const shared::Sphere& sphere : s.spheres) spheres.emplace_back(sphere.center, sphere.radius);
@@ -128,14 +128,14 @@ Ray bounced(const Ray& ray, const RTCRayHit& hit, vec2 u) {
 
 // Path after path, 8x8 pixels together.
 std::vector<Ray> makeRays(RTCScene embree, const scene::CompiledScene& scene) {
-    const shared::Camera camera = scene::makeCamera(scene.camera, kSide, kSide, scene.origin);
+    const shared::Camera camera = scene::makeCamera(scene.camera, kImageSide, kImageSide, scene.origin);
     std::mt19937 random(1);
     const auto uniform = [&random] { return static_cast<float>(random() >> 8) * 0x1p-24f; };
     std::vector<Ray> rays;
-    for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+    for (std::uint32_t i = 0; i < kImageSide * kImageSide; ++i) {
         const std::uint32_t tile = i / 64, inTile = i % 64;
-        const shared::uvec2 pixel(tile % (kSide / 8) * 8 + inTile % 8, tile / (kSide / 8) * 8 + inTile / 8);
-        Ray ray = shared::generateCameraRay(scene.features, camera, pixel, shared::uvec2(kSide),
+        const shared::uvec2 pixel(tile % (kImageSide / 8) * 8 + inTile % 8, tile / (kImageSide / 8) * 8 + inTile / 8);
+        Ray ray = shared::generateCameraRay(scene.features, camera, pixel, shared::uvec2(kImageSide),
                                             vec2(uniform(), uniform()), vec2(uniform(), uniform()), 0.0f);
         for (int bounce = 0; bounce <= kBounces; ++bounce) {
             rays.push_back(ray);
@@ -150,8 +150,8 @@ std::vector<Ray> makeRays(RTCScene embree, const scene::CompiledScene& scene) {
 } // namespace
 
 struct EmbreeRays::Data {
-    Device device{rtcNewDevice(nullptr)};
-    Scene scene;
+    EmbreeDevice device{rtcNewDevice(nullptr)};
+    EmbreeScene scene;
     std::vector<Ray> rays;
     std::vector<float> distances;
 };
