@@ -11,7 +11,7 @@ const int kDenoiseTile = 32;                // pixels a side of what shares its 
 const int kDenoiseSurfaceValues = 7;        // albedo, normal, depth
 const int kDenoiseSurfaceFeatures = 4;      // at most: more were measured to gain 1 % and to cost a third of the time
 const int kDenoiseFeatures = 7;             // with 1 and both coordinates
-const float kDenoiseFeatureNoise = 1.0e-2f; // an axis of the surface's values with less variance tells nothing
+const float kDenoiseFeatureNoise = 3.0e-2f; // an axis of the surface's values with less variance tells too little
 const float kDenoisePixel = 0.1f; // from one pixel to the next: coordinates are small, as surface's features are
 
 const float kDenoiseRidge = 1.0e-3f; // of the sum of weights: a feature that varies by much less has no say
