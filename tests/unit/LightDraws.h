@@ -25,4 +25,12 @@ inline test::Mean irradianceEstimates(const Light& light, uint method, std::uint
     return mean;
 }
 
+// The light with all its lengths times `scale`.
+inline Light scaledLight(Light light, float scale) {
+    light.position *= scale, light.edgeU *= scale, light.edgeV *= scale, light.area *= scale * scale;
+    if (light.kind == kLightEllipsoid || light.kind == kLightCylinder) light.normal *= scale; // a length
+    if (light.kind != kLightDisk) light.radius *= scale; // else a part of the whole one
+    return light;
+}
+
 } // namespace rt::shared

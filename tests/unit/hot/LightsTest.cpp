@@ -177,10 +177,7 @@ TEST_P(LightCase, ScalesExactly) {
     const auto& [name, light, areaIsHopeless] = GetParam();
     for (const uint method : kMethods) {
         for (const float scale : {0x1p-16f, 0x1p16f}) {
-            Light scaled = light;
-            scaled.position *= scale, scaled.edgeU *= scale, scaled.edgeV *= scale, scaled.radius *= scale;
-            if (light.kind == kLightEllipsoid) scaled.normal *= scale;
-            scaled.area *= scale * scale;
+            const Light scaled = scaledLight(light, scale);
             Uniforms uniform(4);
             for (int i = 0; i < 256; ++i) {
                 const vec2 u = uniform.pair();
