@@ -15,14 +15,18 @@ namespace rt::scene {
 namespace {
 
 constexpr std::uint32_t kNoVertex = 0xffffffffu;
-constexpr int kBlock = 4; // cubes along an edge of what is skipped together
+constexpr int kBlock = 4; // samples along an edge of what is skipped together
 
 // Goes through the grid slice by slice (constant y) and keeps the two latest of samples and of vertices.
 class Net {
   public:
     Net(const std::function<double(const glm::dvec3&)>& field, const glm::dvec3& lower, const glm::dvec3& upper,
         double cell)
-        : field_(field), lower_(lower), cell_(cell), count_(glm::ceil((upper - lower) / cell) + 1.0) {}
+        : field_(field),
+          lower_(lower),
+          cell_(cell),
+          count_(glm::ceil((upper - lower) / cell) + 1.0),
+          blocksZ_((count_.z + kBlock - 1) / kBlock) {}
 
     MeshData build() {
         const auto area = static_cast<std::size_t>(count_.x) * static_cast<std::size_t>(count_.z);
@@ -43,6 +47,7 @@ class Net {
 
   private:
     std::size_t at(int x, int z) const { return static_cast<std::size_t>(x) * static_cast<std::size_t>(count_.z) + z; }
+    std::size_t blockAt(int x, int z) const { return static_cast<std::size_t>(x * blocksZ_ + z); }
     double sample(int x, int y, int z) const { return samples_[y & 1][at(x, z)]; }
     std::uint32_t vertex(int x, int y, int z) const { return vertices_[y & 1][at(x, z)]; }
     glm::dvec3 point(double x, double y, double z) const { return lower_ + cell_ * glm::dvec3(x, y, z); }
@@ -51,41 +56,66 @@ class Net {
     // so a block reaches one cube below.
     void chooseBlocks(int y) {
         const double reach = 1.25 * cell_ * 0.5 * (kBlock + 2) * std::sqrt(3.0);
-        blocksZ_ = (count_.z + kBlock - 1) / kBlock;
-        blocks_.resize(static_cast<std::size_t>((count_.x + kBlock - 1) / kBlock) * static_cast<std::size_t>(blocksZ_));
+        const int blocksX = (count_.x + kBlock - 1) / kBlock;
+        const std::vector<Block> below = std::move(blocks_);
+        blocks_.resize(static_cast<std::size_t>(blocksX) * static_cast<std::size_t>(blocksZ_));
         for (std::size_t i = 0; i < blocks_.size(); ++i) {
             const int x = static_cast<int>(i) / blocksZ_ * kBlock, z = static_cast<int>(i) % blocksZ_ * kBlock;
             const double half = 0.5 * (kBlock - 1);
             const double value = field_(point(x + half, y + half, z + half));
-            blocks_[i] = {value, std::abs(value) < reach};
+            const bool isNear = std::abs(value) < reach;
+            blocks_[i] = {value, isNear, isNear || (!below.empty() && below[i].isNear)};
         }
+        // Cubes reach from their block into the next.
+        for (int x = 0; x < blocksX; ++x)
+            for (int z = 0; z < blocksZ_; ++z) {
+                Block& block = blocks_[blockAt(x, z)];
+                if (z + 1 < blocksZ_) block.isCrossed |= blocks_[blockAt(x, z + 1)].isCrossed;
+                if (x + 1 < blocksX) block.isCrossed |= blocks_[blockAt(x + 1, z)].isCrossed;
+                if (x + 1 < blocksX && z + 1 < blocksZ_) block.isCrossed |= blocks_[blockAt(x + 1, z + 1)].isCrossed;
+            }
     }
 
+    // Calls visit(x, z) for the columns of cubes from `first` on that the surface may cross, in order.
+    template <class Visit>
+    void forCrossed(int first, const Visit& visit) const {
+        for (int x = first; x + 1 < count_.x; ++x)
+            for (int z = first; z + 1 < count_.z; ++z) {
+                if (blocks_[blockAt(x / kBlock, z / kBlock)].isCrossed)
+                    visit(x, z);
+                else
+                    z |= kBlock - 1; // to the block's end
+            }
+    }
+
+    // Away from the surface the block's value suffices, whose sign is that of all its samples.
     void sampleSlice(int y) {
         std::vector<double>& slice = samples_[y & 1];
+        const bool isThere = y % kBlock > 1; // from two slices before
         for (int x = 0; x < count_.x; ++x)
             for (int z = 0; z < count_.z; ++z) {
-                const Block& block = blocks_[static_cast<std::size_t>(x / kBlock * blocksZ_ + z / kBlock)];
-                slice[at(x, z)] = block.isNear ? field_(point(x, y, z)) : block.value;
+                const Block& block = blocks_[blockAt(x / kBlock, z / kBlock)];
+                if (block.isNear)
+                    slice[at(x, z)] = field_(point(x, y, z));
+                else if (!isThere)
+                    slice[at(x, z)] = block.value;
             }
     }
 
     void placeVertices(int y) {
-        for (int x = 0; x + 1 < count_.x; ++x)
-            for (int z = 0; z + 1 < count_.z; ++z) {
-                std::array<double, 8> corner; // bit 0: x, bit 1: y, bit 2: z
-                int inside = 0;
-                for (int c = 0; c < 8; ++c) {
-                    corner[static_cast<std::size_t>(c)] = sample(x + (c & 1), y + (c >> 1 & 1), z + (c >> 2));
-                    inside += corner[static_cast<std::size_t>(c)] < 0;
-                }
-                std::uint32_t& vertex = vertices_[y & 1][at(x, z)];
-                vertex = kNoVertex;
-                if (inside == 0 || inside == 8) continue;
-                vertex = static_cast<std::uint32_t>(mesh_.positions.size());
-                const glm::dvec3 offset = meanCrossing(corner);
-                mesh_.positions.push_back(point(x + offset.x, y + offset.y, z + offset.z));
+        std::fill(vertices_[y & 1].begin(), vertices_[y & 1].end(), kNoVertex);
+        forCrossed(0, [&](int x, int z) {
+            std::array<double, 8> corner; // bit 0: x, bit 1: y, bit 2: z
+            int inside = 0;
+            for (int c = 0; c < 8; ++c) {
+                corner[static_cast<std::size_t>(c)] = sample(x + (c & 1), y + (c >> 1 & 1), z + (c >> 2));
+                inside += corner[static_cast<std::size_t>(c)] < 0;
             }
+            if (inside == 0 || inside == 8) return;
+            vertices_[y & 1][at(x, z)] = static_cast<std::uint32_t>(mesh_.positions.size());
+            const glm::dvec3 offset = meanCrossing(corner);
+            mesh_.positions.push_back(point(x + offset.x, y + offset.y, z + offset.z));
+        });
     }
 
     static glm::dvec3 meanCrossing(const std::array<double, 8>& corner) {
@@ -107,20 +137,16 @@ class Net {
     // Two triangles for each edge that the surface crosses, through the vertices of the four cubes around it: the
     // upright edges of the layer of cubes from y on, the level ones of its lower face.
     void connect(int y) {
-        for (int x = 1; x + 1 < count_.x; ++x)
-            for (int z = 1; z + 1 < count_.z; ++z) {
-                const bool isInside = sample(x, y, z) < 0;
-                if (isInside != (sample(x, y + 1, z) < 0))
-                    addQuad({vertex(x, y, z), vertex(x, y, z - 1), vertex(x - 1, y, z - 1), vertex(x - 1, y, z)},
-                            isInside);
-                if (y == 0) continue;
-                if (isInside != (sample(x + 1, y, z) < 0))
-                    addQuad({vertex(x, y, z), vertex(x, y - 1, z), vertex(x, y - 1, z - 1), vertex(x, y, z - 1)},
-                            isInside);
-                if (isInside != (sample(x, y, z + 1) < 0))
-                    addQuad({vertex(x, y, z), vertex(x - 1, y, z), vertex(x - 1, y - 1, z), vertex(x, y - 1, z)},
-                            isInside);
-            }
+        forCrossed(1, [&](int x, int z) {
+            const bool isInside = sample(x, y, z) < 0;
+            if (isInside != (sample(x, y + 1, z) < 0))
+                addQuad({vertex(x, y, z), vertex(x, y, z - 1), vertex(x - 1, y, z - 1), vertex(x - 1, y, z)}, isInside);
+            if (y == 0) return;
+            if (isInside != (sample(x + 1, y, z) < 0))
+                addQuad({vertex(x, y, z), vertex(x, y - 1, z), vertex(x, y - 1, z - 1), vertex(x, y, z - 1)}, isInside);
+            if (isInside != (sample(x, y, z + 1) < 0))
+                addQuad({vertex(x, y, z), vertex(x - 1, y, z), vertex(x - 1, y - 1, z), vertex(x, y - 1, z)}, isInside);
+        });
     }
 
     // Cut along the shorter diagonal; `isForward`: as listed, counter-clockwise from the outside.
@@ -148,6 +174,7 @@ class Net {
     struct Block {
         double value; // at its middle
         bool isNear;
+        bool isCrossed; // the surface may cross cubes that begin in it or below it
     };
 
     const std::function<double(const glm::dvec3&)>& field_;
@@ -156,8 +183,8 @@ class Net {
     const glm::ivec3 count_; // samples along each axis
     std::array<std::vector<double>, 2> samples_;
     std::array<std::vector<std::uint32_t>, 2> vertices_; // of cubes, by their lowest corner
+    const int blocksZ_;
     std::vector<Block> blocks_;
-    int blocksZ_ = 0;
     MeshData mesh_;
 };
 
