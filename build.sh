@@ -311,7 +311,7 @@ case $verb in
         [[ -z ${1:-} || $1 == --all ]] || fail "test $1: must be --all or nothing"
         install_packages "${build_packages[@]}" "${test_packages[@]}" "${cluster_packages[@]}" \
             "${python_packages[@]}" ${1:+"${compiler_packages[@]}"}
-        configure -DRT_BUILD_TESTS=ON -DRT_BUILD_BENCH=ON ${1:+-DRT_KERNELS=all} \
+        configure -DRT_BUILD_TESTS=ON ${1:+-DRT_KERNELS=all -DRT_BUILD_BENCH=ON} \
             ${VCPKG_ROOT:+-DVCPKG_MANIFEST_FEATURES=tests}
         build
         provide_device || fail "$no_device_reason"

@@ -16,6 +16,7 @@
 #include "RayTracingCPU/CpuEngine.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/ConnectedScene.h"
+#include "tests/VariedScenes.h"
 #include "tests/cross/Device.h"
 #include "tests/image/Harness.h"
 
@@ -157,7 +158,15 @@ std::string sceneName(const ::testing::TestParamInfo<SceneAndEngine>& info) {
 }
 
 const auto kEveryScene = ::testing::Range(std::size_t{0}, scene::builtinScenes().size());
-INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest, ::testing::Combine(kEveryScene, kFirstEngine), sceneName);
+std::vector<std::size_t> scenesThat(bool areVaried) {
+    std::vector<std::size_t> scenes;
+    for (std::size_t i = 0; i < scene::builtinScenes().size(); ++i)
+        if (isVaried(scene::builtinScenes()[i].id) == areVaried) scenes.push_back(i);
+    return scenes;
+}
+const auto kVaried = ::testing::ValuesIn(scenesThat(true)), kOthers = ::testing::ValuesIn(scenesThat(false));
+INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest, ::testing::Combine(kVaried, kFirstEngine), sceneName);
+INSTANTIATE_TEST_SUITE_P(NightlyScenes, AgreementTest, ::testing::Combine(kOthers, kFirstEngine), sceneName);
 INSTANTIATE_TEST_SUITE_P(Nightly, AgreementTest, ::testing::Combine(kEveryScene, kSecondEngine), sceneName);
 
 // Ray queries: spheres and quads, spheres that move, instances and media, a mesh.

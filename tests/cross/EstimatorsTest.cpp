@@ -64,8 +64,8 @@ std::string builtinName(const ::testing::TestParamInfo<SceneAndEstimators>& info
     return name;
 }
 
-// The CPU's estimators are compared on all scenes, and the engines path by path on all: a quarter of the scenes, each
-// with the next of the estimators, suffices at every change. Nightly tests have the rest.
+// The CPU's estimators are compared with each other, and the engines path by path: a quarter of the scenes, each with
+// the next of the estimators, suffices at every change. Nightly tests have the rest.
 std::vector<SceneAndEstimators> scenesOf(bool nightly) {
     std::vector<SceneAndEstimators> scenes;
     for (std::size_t i = 0; i < scene::builtinScenes().size(); ++i) {

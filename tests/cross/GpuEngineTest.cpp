@@ -36,7 +36,8 @@ app::RenderSettings settingsFor(std::uint32_t spp) {
 }
 
 class GpuEngineTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
-INSTANTIATE_TEST_SUITE_P(Engines, GpuEngineTest, kBothEngines, engineName);
+INSTANTIATE_TEST_SUITE_P(Engines, GpuEngineTest, kFirstEngine, engineName);
+INSTANTIATE_TEST_SUITE_P(Nightly, GpuEngineTest, kSecondEngine, engineName);
 
 gpu::GpuEngineOptions testedEngine(std::uint32_t regionSlots = gpu::GpuEngineOptions().regionSlots) {
     gpu::GpuEngineOptions options;

@@ -40,9 +40,8 @@ class GpuLeases : public ::testing::TestWithParam<app::GpuEngineKind> {
         return {settings, gpu::makeGpuEngine(device(), {.pipelineCache = false, .engine = GetParam()})};
     }
 };
-INSTANTIATE_TEST_SUITE_P(Engines, GpuLeases,
-                         ::testing::Values(app::GpuEngineKind::Pipeline, app::GpuEngineKind::Compute,
-                                           app::GpuEngineKind::Query),
+INSTANTIATE_TEST_SUITE_P(Engines, GpuLeases, kFirstEngine, engineName);
+INSTANTIATE_TEST_SUITE_P(Nightly, GpuLeases, ::testing::Values(app::GpuEngineKind::Pipeline, app::GpuEngineKind::Query),
                          engineName);
 
 // All tiles, in leases that grow and shrink; the tiles of one are not side by side.

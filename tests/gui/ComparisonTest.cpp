@@ -134,7 +134,6 @@ class ComparisonTest : public WindowTest {
             kSeen);
     }
 };
-INSTANTIATE_TEST_SUITE_P(, ComparisonTest, kBothPrograms, nameOfProgram);
 
 class SharedComparisonTest : public ComparisonTest {};
 INSTANTIATE_TEST_SUITE_P(, SharedComparisonTest, kFirstProgram, nameOfProgram);
@@ -304,7 +303,7 @@ TEST_P(SharedComparisonTest, ColumnsCanBeChosen) {
     expectCleanEnd();
 }
 
-TEST_P(ComparisonTest, TheOtherEngineRendersTheSameAtOneClick) {
+TEST_P(SharedComparisonTest, TheOtherEngineRendersTheSameAtOneClick) {
     const bool isCpu = std::string(GetParam()) == "ray-tracing-cpu";
     const std::string label = std::string("Run on the other engine (") + (isCpu ? "GPU)" : "CPU)");
     start({"--spp", "1000000"});

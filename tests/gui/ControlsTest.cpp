@@ -166,7 +166,7 @@ TEST_P(SharedControlsTest, TheKeyboardReachesThePanels) {
 // Clicks into every row of the panels, and then where the second entry is of the menu that this may have opened:
 // between two rows where it has not. What has changed is told by the settings that remain. A machine that is too busy
 // for a frame between two clicks gets more time.
-TEST_P(ControlsTest, EveryControlCanBeUsed) {
+TEST_P(SharedControlsTest, EveryControlCanBeUsed) {
     constexpr int kColumn = 200, kRow = 29, kSecondEntry = 43, kRenderingHeader = 294, kBottom = 830;
     constexpr std::size_t kEnough = 4; // settings that have changed; menus are left as they were as often as not
     std::set<std::string> changed;

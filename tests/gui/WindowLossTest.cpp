@@ -52,6 +52,10 @@ class WindowLossTest : public WindowTest {
 };
 INSTANTIATE_TEST_SUITE_P(, WindowLossTest, kBothPrograms, nameOfProgram);
 
+class SharedWindowLossTest : public WindowLossTest {};
+INSTANTIATE_TEST_SUITE_P(, SharedWindowLossTest, kFirstProgram, nameOfProgram);
+INSTANTIATE_TEST_SUITE_P(Nightly, SharedWindowLossTest, kSecondProgram, nameOfProgram);
+
 constexpr const char* kOutOfDate = "-1000001004";
 constexpr const char* kSuboptimal = "1000001003";
 constexpr const char* kSurfaceLost = "-1000000000";
@@ -60,7 +64,7 @@ constexpr const char* kDeviceLost = "-4";
 constexpr const char* kTaken = ": the window system has taken the window away\n";
 
 // The last faults show that frames went on behind those before.
-TEST_P(WindowLossTest, SwapchainsAndSurfacesAreReplaced) {
+TEST_P(SharedWindowLossTest, SwapchainsAndSurfacesAreReplaced) {
     const std::string acquire = "vkAcquireNextImageKHR:", present = "vkQueuePresentKHR:",
                       create = "vkCreateSwapchainKHR:";
     letFail(acquire + "3=" + kOutOfDate + "," + acquire + "6=" + kSurfaceLost + "," + acquire + "9=" + kSuboptimal +
@@ -116,7 +120,7 @@ TEST_P(WindowLossTest, ADeviceThatIsLostWhilePresentingEndsItAndNothingIsLost) {
     EXPECT_NE(log().find("Drawing to the window: the device was lost"), std::string::npos) << log();
 }
 
-TEST_P(WindowLossTest, AWindowThatIsTakenAwayEndsItAndNothingIsLost) {
+TEST_P(SharedWindowLossTest, AWindowThatIsTakenAwayEndsItAndNothingIsLost) {
     startLongRender();
     ASSERT_FALSE(HasFatalFailure());
     waitForSamples();
@@ -129,7 +133,7 @@ TEST_P(WindowLossTest, AWindowThatIsTakenAwayEndsItAndNothingIsLost) {
     EXPECT_EQ(settings()["ui_scale"], 1.25);
 }
 
-TEST_P(WindowLossTest, AScreenThatIsGoneEndsItAndNothingIsLost) {
+TEST_P(SharedWindowLossTest, AScreenThatIsGoneEndsItAndNothingIsLost) {
     startLongRender();
     ASSERT_FALSE(HasFatalFailure());
     waitForSamples();

@@ -47,7 +47,7 @@ TEST_P(SharedWindowStateTest, SizesFollowTheMonitor) {
     expectCleanEnd();
 }
 
-TEST_P(WindowStateTest, MinimisedItRendersOnAndComesBack) {
+TEST_P(SharedWindowStateTest, MinimisedItRendersOnAndComesBack) {
     const std::filesystem::path image = folder_ / "a.exr";
     start({"--width", "64", "--spp", "200", "--window", "-o", image.string()});
     ASSERT_FALSE(HasFatalFailure());

@@ -5,6 +5,7 @@
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Render/Names.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "tests/VariedScenes.h"
 #include "tests/image/Harness.h"
 #include "tests/image/ImageEquivalence.h"
 
@@ -78,9 +79,10 @@ TEST(PunctualLights, AreTheSameForAllWaysToSampleLights) {
     expectAgreement(app::loadScene(RT_TEST_DATA_DIR "/scenes/punctual-lights.json"));
 }
 
-std::vector<std::string> sceneIds() {
+std::vector<std::string> sceneIds(bool areVaried) {
     std::vector<std::string> ids;
     for (const scene::BuiltinScene& builtin : scene::builtinScenes()) {
+        if (isVaried(builtin.id) != areVaried) continue;
         std::string id(builtin.id);
         if (builtin.defaultCount > 200) id += ":200";
         ids.push_back(id);
@@ -88,11 +90,13 @@ std::vector<std::string> sceneIds() {
     return ids;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(sceneIds()), [](const auto& info) {
+std::string sceneName(const ::testing::TestParamInfo<std::string>& info) {
     std::string name;
     for (char c : info.param) name += c == '-' || c == ':' ? '_' : c;
     return name;
-});
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(sceneIds(true)), sceneName);
+INSTANTIATE_TEST_SUITE_P(Nightly, Agreement, ::testing::ValuesIn(sceneIds(false)), sceneName);
 
 } // namespace
 } // namespace rt::test

@@ -59,9 +59,7 @@ build_suite() {
         compile=$(grep -F -- "-c $PWD/$unit" <<<"$commands") || return 1
         (cd build && nice -n 10 bash -c "$compile") >"$scratch/build" 2>&1 || return 1
     done
-    # Those that are not hot are linked from a library.
-    (cd build && nice -n 10 bash -c "$(grep -F -- "-E rm -f tests/librt-unit-cold.a" <<<"$commands")" &&
-        nice -n 10 bash -c "${commands##*$'\n'}") >>"$scratch/build" 2>&1
+    (cd build && nice -n 10 bash -c "${commands##*$'\n'}") >>"$scratch/build" 2>&1
 }
 
 # is_written TEST: whether its tier's sources have a test of this name; that of the last part of a parametrized one.

@@ -235,8 +235,10 @@ TEST_F(EndedRanks, AKilledOneCostsLittleAndAnyNumberGoesOn) {
     expectToGoOn({"--width", "24", "--height", "24", "--threads", "1"});
 }
 
+using NightlyEndedRanks = EndedRanks;
+
 // From the pilot, and from what follows the plan, whose checkpoint is smaller as it lacks the pilot's squares.
-TEST_F(EndedRanks, AdaptiveSamplesGoOnToo) {
+TEST_F(NightlyEndedRanks, AdaptiveSamplesGoOnToo) {
     Arguments rest = size("4000");
     rest.insert(rest.end(), {"--adaptive", "on"});
     const std::string one = pixels(rest);
@@ -263,7 +265,9 @@ TEST_F(EndedRanks, OneThatStopsForEverHoldsNobodyUp) {
 
 #ifdef RT_HAS_GPU
 
-TEST_F(Ranks, MakeTheBitsOfOneProcessOnGpus) {
+using NightlyRanks = Ranks;
+
+TEST_F(NightlyRanks, MakeTheBitsOfOneProcessOnGpus) {
     const Arguments size = {"--engine", "compute", "--width", "70", "--height", "41", "--spp", "20", "--headless"};
     Arguments alone = size;
     alone.insert(alone.begin(), "-q");

@@ -1,5 +1,5 @@
 // Every sampler of directions and the choice among lights, on a few fixed cases each and under stress, valid as C++20
-// and as GLSL: tests/cross/SamplersTest.cpp proves the same things of what both sides draw.
+// and as GLSL: tests/cross/hot/SamplersTest.cpp proves the same things of what both sides draw.
 #ifndef RT_SHADERS_SAMPLER_PROBE_H
 #define RT_SHADERS_SAMPLER_PROBE_H
 #include "Common/Shared/Base/SceneAccess.h"
