@@ -8,8 +8,8 @@
 namespace rt::test {
 
 inline constexpr std::array<std::string_view, 9> kVariedScenes{
-    "cornell-box-lights", "one-weekend-final", "next-week-earth", "next-week-simple-light", "next-week-final",
-    "cornell-box-lucy",   "veach-mis",         "many-lights",     "furnace-mixed",
+    "cornell-box-lights", "lucy-in-one-weekend", "next-week-earth", "next-week-two-spheres", "next-week-final",
+    "cornell-box-lucy",   "veach-mis",           "many-lights",     "furnace-mixed",
 };
 inline bool isVaried(std::string_view id) {
     return std::find(kVariedScenes.begin(), kVariedScenes.end(), id) != kVariedScenes.end();

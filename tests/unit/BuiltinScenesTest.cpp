@@ -8,10 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include "Common/App/Session/FeatureNames.h"
 #include "Common/Core/Error.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"
 #include "Common/Scene/Json/SceneJson.h"
+#include "tests/VariedScenes.h"
 
 namespace rt::scene {
 namespace {
@@ -204,6 +206,16 @@ INSTANTIATE_TEST_SUITE_P(All, BuiltinScenes, testing::ValuesIn(allIds()), [](con
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
 });
+
+TEST(VariedScenes, HaveEveryFeatureOfBuiltinScenes) {
+    shared::Features ofVaried{}, ofAll{};
+    for (const BuiltinScene& scene : builtinScenes()) {
+        const auto compiled = compileScene(findBuiltinScene(std::string(scene.id)), generated());
+        ofAll = ofAll | compiled->features;
+        if (test::isVaried(scene.id)) ofVaried = ofVaried | compiled->features;
+    }
+    EXPECT_EQ(app::featureNames(ofVaried), app::featureNames(ofAll));
+}
 
 std::string errorOf(const std::string& id) {
     try {
