@@ -2,7 +2,9 @@
 // path decide differently. Every built-in scene; the validation layers watch, synchronization included.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -16,7 +18,7 @@
 #include "RayTracingCPU/CpuEngine.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/ConnectedScene.h"
-#include "tests/VariedScenes.h"
+#include "tests/SceneCases.h"
 #include "tests/cross/Device.h"
 #include "tests/image/Harness.h"
 
@@ -28,10 +30,7 @@ using image::Image;
 constexpr std::uint32_t kPictureSide = 48; // pixels
 
 std::shared_ptr<const scene::CompiledScene> smallScene(const scene::BuiltinScene& builtin) {
-    constexpr std::uint32_t kCount = 200; // of scenes that come in every size
-    std::string id(builtin.id);
-    if (builtin.defaultCount > kCount) id += ":" + std::to_string(kCount);
-    return app::compile(app::loadScene(id), true);
+    return app::compile(app::loadScene(smallSceneId(builtin)), true);
 }
 
 std::shared_ptr<const scene::CompiledScene> sceneOfFile(const std::string& name) {
@@ -133,6 +132,14 @@ double minAgreement(const scene::CompiledScene& scene) {
     return ::testing::AssertionSuccess();
 }
 
+// Paths and features (of what is seen through glass, too) in at least this share of pixels, and the means.
+void expectAgreement(EnginePair& engines, double share) {
+    EXPECT_GE(agreement(engines.render(pairSettings(1))), share);
+    EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
+    for (const Pair& feature : engines.features()) EXPECT_GE(agreement(feature), share);
+    EXPECT_EQ(device().validationMessages(), 0u);
+}
+
 // A scene by its index, and an engine.
 using SceneAndEngine = std::tuple<std::size_t, app::GpuEngineKind>;
 class AgreementTest : public ::testing::TestWithParam<SceneAndEngine> {};
@@ -142,42 +149,33 @@ TEST_P(AgreementTest, SampleForSample) {
     if (lacks(engine)) return;
     const auto scene = smallScene(scene::builtinScenes()[index]);
     EnginePair engines(scene, engine);
-    EXPECT_GE(agreement(engines.render(pairSettings(1))), minAgreement(*scene));
-    EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
-    // Some show what is seen through glass, which one rounding makes another path, as in pictures.
-    for (const Pair& feature : engines.features()) EXPECT_GE(agreement(feature), minAgreement(*scene));
-    EXPECT_EQ(device().validationMessages(), 0u);
+    expectAgreement(engines, minAgreement(*scene));
 }
 
 std::string sceneName(const ::testing::TestParamInfo<SceneAndEngine>& info) {
     const auto [index, engine] = info.param;
-    std::string name = std::string(scene::builtinScenes()[index].id) + "_" + app::nameOf(app::kGpuEngines, engine);
-    const auto isOther = [](unsigned char c) { return std::isalnum(c) == 0; };
-    std::replace_if(name.begin(), name.end(), isOther, '_');
-    return name;
+    return caseName(std::string(scene::builtinScenes()[index].id) + "_" + app::nameOf(app::kGpuEngines, engine));
 }
 
 const auto kEveryScene = ::testing::Range(std::size_t{0}, scene::builtinScenes().size());
-std::vector<std::size_t> scenesThat(bool areVaried) {
+template <class Condition>
+std::vector<std::size_t> scenesWhoseId(const Condition& holds) {
     std::vector<std::size_t> scenes;
     for (std::size_t i = 0; i < scene::builtinScenes().size(); ++i)
-        if (isVaried(scene::builtinScenes()[i].id) == areVaried) scenes.push_back(i);
+        if (holds(scene::builtinScenes()[i].id)) scenes.push_back(i);
     return scenes;
 }
-const auto kVaried = ::testing::ValuesIn(scenesThat(true)), kOthers = ::testing::ValuesIn(scenesThat(false));
+const auto kVaried = ::testing::ValuesIn(scenesWhoseId(isVaried));
+const auto kOthers = ::testing::ValuesIn(scenesWhoseId(std::not_fn(isVaried)));
 INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest, ::testing::Combine(kVaried, kFirstEngine), sceneName);
 INSTANTIATE_TEST_SUITE_P(NightlyScenes, AgreementTest, ::testing::Combine(kOthers, kFirstEngine), sceneName);
 INSTANTIATE_TEST_SUITE_P(Nightly, AgreementTest, ::testing::Combine(kEveryScene, kSecondEngine), sceneName);
 
 // Ray queries: spheres and quads, spheres that move, instances and media, a mesh.
 std::vector<std::size_t> fewScenes() {
-    std::vector<std::size_t> scenes;
-    for (std::size_t i = 0; i < scene::builtinScenes().size(); ++i) {
-        const std::string_view id = scene::builtinScenes()[i].id;
-        for (const char* wanted : {"cornell-box-lights", "next-week-default", "next-week-final", "cornell-box-lucy"})
-            if (id == wanted) scenes.push_back(i);
-    }
-    EXPECT_EQ(scenes.size(), 4u);
+    const std::set<std::string> ids{"cornell-box-lights", "next-week-default", "next-week-final", "cornell-box-lucy"};
+    const auto scenes = scenesWhoseId([&](std::string_view id) { return ids.count(std::string(id)) != 0; });
+    EXPECT_EQ(scenes.size(), ids.size());
     return scenes;
 }
 const auto kQueries = ::testing::Values(app::GpuEngineKind::Query);
@@ -189,10 +187,7 @@ INSTANTIATE_TEST_SUITE_P(NightlyQueries, AgreementTest, ::testing::Combine(kEver
 TEST(CuboidAgreementTest, SampleForSample) {
     const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/cuboids.json"), true);
     EnginePair engines(scene, app::GpuEngineKind::Compute);
-    EXPECT_GE(agreement(engines.render(pairSettings(1))), minAgreement(*scene));
-    EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
-    // Some show what is seen through glass, which one rounding makes another path, as in pictures.
-    for (const Pair& feature : engines.features()) EXPECT_GE(agreement(feature), minAgreement(*scene));
+    expectAgreement(engines, minAgreement(*scene));
 }
 
 // More features than a scene needs change nothing but rounding: code that nothing needs, arrays that are not there.
@@ -308,10 +303,7 @@ TEST_P(PrincipledAgreementTest, Extensions) {
     const auto scene = sceneOfFile("gltf-extensions");
     EnginePair engines(scene, GetParam());
     constexpr double kAgreeThroughGlass = 0.98;
-    EXPECT_GE(agreement(engines.render(pairSettings(1))), kAgreeThroughGlass);
-    EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
-    for (const Pair& feature : engines.features()) EXPECT_GE(agreement(feature), kAgreeThroughGlass);
-    EXPECT_EQ(device().validationMessages(), 0u);
+    expectAgreement(engines, kAgreeThroughGlass);
 }
 
 TEST_P(PrincipledAgreementTest, SampleForSample) {

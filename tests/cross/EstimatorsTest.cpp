@@ -1,6 +1,4 @@
 // Every built-in scene, every way of sampling lights: the GPU's images with their own random numbers against the CPU's.
-#include <algorithm>
-#include <cctype>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -12,6 +10,7 @@
 #include "Common/Scene/Compiler/SceneCompiler.h"
 #include "RayTracingCPU/CpuEngine.h"
 #include "RayTracingGPU/GpuEngine.h"
+#include "tests/SceneCases.h"
 #include "tests/cross/Device.h"
 #include "tests/image/Harness.h"
 #include "tests/image/ImageEquivalence.h"
@@ -37,11 +36,9 @@ class EstimatorsTest : public ::testing::TestWithParam<SceneAndEstimators> {};
 // proves.
 TEST_P(EstimatorsTest, EnginesAgree) {
     const scene::BuiltinScene& builtin = scene::builtinScenes()[GetParam().scene];
-    std::string id(builtin.id);
-    if (builtin.defaultCount > 200) id += ":200";
     scene::CompileOptions options;
     options.generatedAssets = true;
-    const auto compiled = scene::compileScene(scene::findBuiltinScene(id), options);
+    const auto compiled = scene::compileScene(scene::findBuiltinScene(smallSceneId(builtin)), options);
     const auto gpu = gpu::makeGpuEngine(device(), {.pipelineCache = false, .engine = app::GpuEngineKind::Pipeline});
     const auto cpu = cpu::makeCpuEngine({});
     gpu->setScene(compiled, nullptr);
@@ -58,10 +55,7 @@ TEST_P(EstimatorsTest, EnginesAgree) {
 }
 
 std::string builtinName(const ::testing::TestParamInfo<SceneAndEstimators>& info) {
-    std::string name(scene::builtinScenes()[info.param.scene].id);
-    const auto isOther = [](unsigned char c) { return std::isalnum(c) == 0; };
-    std::replace_if(name.begin(), name.end(), isOther, '_');
-    return name;
+    return caseName(std::string(scene::builtinScenes()[info.param.scene].id));
 }
 
 // The CPU's estimators are compared with each other, and the engines path by path: a quarter of the scenes, each with

@@ -17,6 +17,7 @@
 #include "Common/Scene/Json/SceneJson.h"
 #include "Common/Shared/Base/Features.h"
 #include "RayTracingGPU/GpuEngine.h"
+#include "tests/SceneCases.h"
 #include "tests/cross/Device.h"
 
 namespace rt::test {
@@ -115,11 +116,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PreviewDepthTest,
                                            "next-week-final", "rest-of-life-cornell-box", "cube-and-spheres",
                                            "triangle-lights", "veach-mis",
                                            RT_TEST_DATA_DIR "/scenes/disks-and-cylinders.json"),
-                         [](const auto& info) {
-                             std::string name = std::filesystem::path(info.param).stem().string();
-                             std::replace(name.begin(), name.end(), '-', '_');
-                             return name;
-                         });
+                         [](const auto& info) { return caseName(std::filesystem::path(info.param).stem().string()); });
 
 TEST_P(PreviewDepthTest, IsTheRayTracers) {
     const Scene scene = app::compile(app::loadScene(GetParam()), true);

@@ -5,7 +5,7 @@
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Render/Names.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
-#include "tests/VariedScenes.h"
+#include "tests/SceneCases.h"
 #include "tests/image/Harness.h"
 #include "tests/image/ImageEquivalence.h"
 
@@ -81,19 +81,13 @@ TEST(PunctualLights, AreTheSameForAllWaysToSampleLights) {
 
 std::vector<std::string> sceneIds(bool areVaried) {
     std::vector<std::string> ids;
-    for (const scene::BuiltinScene& builtin : scene::builtinScenes()) {
-        if (isVaried(builtin.id) != areVaried) continue;
-        std::string id(builtin.id);
-        if (builtin.defaultCount > 200) id += ":200";
-        ids.push_back(id);
-    }
+    for (const scene::BuiltinScene& builtin : scene::builtinScenes())
+        if (isVaried(builtin.id) == areVaried) ids.push_back(smallSceneId(builtin));
     return ids;
 }
 
 std::string sceneName(const ::testing::TestParamInfo<std::string>& info) {
-    std::string name;
-    for (char c : info.param) name += c == '-' || c == ':' ? '_' : c;
-    return name;
+    return caseName(info.param);
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(sceneIds(true)), sceneName);
 INSTANTIATE_TEST_SUITE_P(Nightly, Agreement, ::testing::ValuesIn(sceneIds(false)), sceneName);

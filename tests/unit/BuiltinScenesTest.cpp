@@ -13,7 +13,7 @@
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"
 #include "Common/Scene/Json/SceneJson.h"
-#include "tests/VariedScenes.h"
+#include "tests/SceneCases.h"
 
 namespace rt::scene {
 namespace {
@@ -201,19 +201,20 @@ std::vector<std::string> allIds() {
     return ids;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BuiltinScenes, testing::ValuesIn(allIds()), [](const auto& info) {
-    std::string name = info.param;
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, BuiltinScenes, testing::ValuesIn(allIds()),
+                         [](const auto& info) { return test::caseName(info.param); });
 
 TEST(VariedScenes, HaveEveryFeatureOfBuiltinScenes) {
     shared::Features ofVaried{}, ofAll{};
+    std::size_t varied = 0;
     for (const BuiltinScene& scene : builtinScenes()) {
         const auto compiled = compileScene(findBuiltinScene(std::string(scene.id)), generated());
         ofAll = ofAll | compiled->features;
-        if (test::isVaried(scene.id)) ofVaried = ofVaried | compiled->features;
+        if (!test::isVaried(scene.id)) continue;
+        ofVaried = ofVaried | compiled->features;
+        ++varied;
     }
+    EXPECT_EQ(varied, test::kVariedScenes.size()); // each name is a scene's
     EXPECT_EQ(app::featureNames(ofVaried), app::featureNames(ofAll));
 }
 

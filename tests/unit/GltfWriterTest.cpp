@@ -13,7 +13,7 @@
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Scene/ModelFile.h"
-#include "tests/VariedScenes.h"
+#include "tests/SceneCases.h"
 #include "tests/unit/GltfBuilder.h"
 #include "tests/unit/WrittenGltf.h"
 

@@ -174,7 +174,7 @@ TEST(Principled, FilmsMakeNoEnergy) {
         for (const float roughness : {0.0f, 0.1f, 0.4f, 1.0f})
             for (const float thickness : {60.0f, 150.0f, 330.0f, 900.0f})
                 for (const float ior : {1.2f, 1.8f})
-                    for (const double cosine : {1e-3, 0.3, 1.0})
+                    for (const double cosine : {1e-3, 0.05, 0.3, 0.7, 1.0})
                         for (const bool front : {true, false}) {
                             if (!front && !(which.transmission > 0)) continue;
                             Principled p = principledOf(which, roughness);
